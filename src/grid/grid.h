@@ -35,6 +35,9 @@ typedef struct FoundBlock {
     GridRank rank;
 } FoundBlock;
 
+/* Particles whose strain was clamped, that left their cells, and that have to go. */
+typedef enum GridCount { GRID_CLAMPED, GRID_MOVED, GRID_LOST, GRID_COUNTS } GridCount;
+
 typedef struct Grid {
     int dimension;
     int neighbours;     /* 3^d */
@@ -46,13 +49,15 @@ typedef struct Grid {
      * of all sums, goes with the matter: a scene shifted by whole cells moves bit for bit the same. */
     int32_t anchor[3];
 
-    /* Blocks [0, particle_blocks) hold particles, the rest up to node_blocks are only touched. Each kind is in Morton order. */
+    /* Blocks [0, particle_blocks) hold particles, the rest up to node_blocks are only touched. Each kind is in Morton order, but for copies, which come last. */
     int32_t particle_blocks;
     int32_t node_blocks;
     int32_t still_blocks; /* of the particle blocks the first ones, which take part, but whose particles sleep */
     uint32_t first_row, end_row; /* particles before and from there on are not in the grid: they sleep, or are in another part */
     Array coordinate;    /* int32_t[3] per node block: its position in blocks from the anchor */
     Array neighbour;     /* int32_t per node block and neighbour: block index or -1 */
+    int32_t bodies;      /* what shares no node with the rest, see bodies.h */
+    Array body;          /* int32_t per node block: its body, numbered by their first blocks */
     Array block_begin;   /* uint32_t per particle block and flight, and the end: first particle */
     Array block_run;     /* uint32_t per particle block and flight, and the end: first run */
 
@@ -71,7 +76,8 @@ typedef struct Grid {
     uint32_t runs;
 
     /* What the kernels work on; see KernelArgs. */
-    Array tile, tile_volume, node, node_base, node_volume, node_density, node_reach, edged, clamped, moved, lost, travel;
+    Array tile, tile_volume, node, node_base, node_volume, node_density, node_reach, edged, travel;
+    Array counts; /* uint32_t, all of a GridCount together: see grid_counts() */
 
     /* Scratch of the build. */
     Array found;       /* blocks in order of discovery */
@@ -97,10 +103,16 @@ static inline Span grid_rows(const Grid *grid, int32_t grain)
     return (Span){grid->particle_blocks, grain, (int64_t)(grid->end_row - grid->first_row) * PARTICLE_NS};
 }
 
+/* What a kernel counts per block with particles and per flight. */
+static inline uint32_t *grid_counts(const Grid *grid, GridCount kind)
+{
+    return (uint32_t *)grid->counts.data + (size_t)kind * (size_t)(grid->particle_blocks + grid->flights);
+}
+
 /* No blocks, no runs: there are no particles. */
 static inline void grid_clear(Grid *grid)
 {
-    grid->particle_blocks = grid->node_blocks = grid->still_blocks = grid->flights = grid->left_blocks = 0;
+    grid->particle_blocks = grid->node_blocks = grid->still_blocks = grid->flights = grid->left_blocks = grid->bodies = 0;
     grid->runs = 0;
 }
 
@@ -114,37 +126,13 @@ static inline Span grid_rows_and_flights(const Grid *grid, int32_t grain)
     return span;
 }
 
-/* Sorts the particles by block, cell and material and lists the blocks they touch. `with_volume`: also room for rest
- * volumes. On failure (no memory) the particles are as before and the grid is empty. */
-pbmpm_result grid_build(Grid *grid, Memory *memory, Particles *particles, Pool *pool, bool with_volume);
-
-/* The lowest cell of the particles, per axis. */
-void grid_drop_anchor(const Particles *particles, int32_t anchor[3]);
-
-/* ---- The same in parts, for who decides between them which particles belong in the grid, and how blocks rank ---- */
-
-/* Forgets all blocks; those to come are counted from `anchor`. False: no memory. */
-bool grid_begin(Grid *grid, Memory *memory, const int32_t anchor[3]);
-
-/* Finds the blocks of the particles in the rows [begin, end). False: no memory. */
-bool grid_add_rows(Grid *grid, Memory *memory, const Particles *particles, uint32_t begin, uint32_t end);
-
-/* The block in order of discovery at a place that is counted from the anchor; null if it was not found. */
-FoundBlock *grid_found(const Grid *grid, const int32_t place[3]);
-
-/* The rest: sorts the rows from `first` on, all of which were added. */
-pbmpm_result grid_finish(Grid *grid, Memory *memory, Particles *particles, Pool *pool, bool with_volume, uint32_t first);
+/* Makes room for what there is per node. False: no memory. */
+bool grid_reserve_nodes(Grid *grid, Memory *memory, bool with_volume);
 
 /* ---- Grids of some of the particles each, which share the scratch per particle of `whole` ---- */
 
 /* Makes `part` the one at `place` among them, for particles that will stand in the rows [first, end). At place 0 it is `whole` itself. */
 void grid_share(Grid *part, const Grid *whole, int place, uint32_t first, uint32_t end);
-
-/* Builds it of the particles that order_scratch lists from `first` to `end`: their new order stands in `order` then. On failure it is empty. */
-pbmpm_result grid_arrange_part(Grid *part, Memory *memory, Particles *particles, Pool *pool, bool with_volume);
-
-/* After the particles were brought into the order of all parts. Adds its loops to others. */
-void grid_link_part(Grid *part, Particles *particles, Loops *loops);
 
 /* Whether its tables fit each other: blocks, rows, runs, neighbours. For assertions. */
 bool grid_is_sound(const Grid *grid);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/sets.h"
+#include "grid/build.h"
 
 /* ---- Kinds ---- */
 

@@ -4,25 +4,30 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "grid/bodies.h"
+
+/* What a block is found by: its place and its body. */
+enum { BODY = 3, KEY };
+
 enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH, HALO = 2 * K_BLOCK_AXIS + 1, COARSE = K_BLOCK_AXIS / 2 + 1 };
 
 /* ---- Lists of blocks ---- */
 
-static uint64_t pack(const int32_t c[3])
+static uint64_t pack(const int32_t c[KEY])
 {
     return (uint64_t)(uint32_t)c[0] << (2 * GRID_COORDINATE_BITS) | (uint64_t)(uint32_t)c[1] << GRID_COORDINATE_BITS | (uint64_t)(uint32_t)c[2];
 }
 
 /* The slot of a block in the table, or the free slot where it belongs; slots hold an index + 1. */
-static uint32_t *find_slot(const Multilevel *m, const Level *level, const int32_t c[3])
+static uint32_t *find_slot(const Multilevel *m, const Level *level, const int32_t c[KEY])
 {
     const size_t mask = m->table.bytes / sizeof(uint32_t) - 1;
     const int32_t *coordinate = level->coordinate.data;
     uint32_t *table = m->table.data;
-    uint64_t mixed = pack(c) * 0x9e3779b97f4a7c15u;
+    uint64_t mixed = (pack(c) + (uint64_t)c[BODY] * 0xbf58476d1ce4e5b9u) * 0x9e3779b97f4a7c15u;
     mixed = (mixed ^ mixed >> 32) * 0x9e3779b97f4a7c15u;
     for (size_t slot = (size_t)(mixed >> 32) & mask;; slot = (slot + 1) & mask)
-        if (table[slot] == 0 || memcmp(coordinate + 3 * (table[slot] - 1), c, 3 * sizeof *c) == 0) return &table[slot];
+        if (table[slot] == 0 || memcmp(coordinate + KEY * (table[slot] - 1), c, KEY * sizeof *c) == 0) return &table[slot];
 }
 
 /* An empty table for up to `blocks` blocks, at most half full; its size stays a power of two. */
@@ -43,13 +48,6 @@ static bool open_table(Multilevel *m, Memory *memory, size_t blocks)
 static int parents_of(const Multilevel *m) { return m->dimension == 3 ? 8 : 4; }
 static int children_of(const Multilevel *m) { return m->dimension == 3 ? 27 : 9; }
 
-/* For the list of a level over `finer` blocks: all of their parents could be different ones. */
-static bool reserve_list(const Multilevel *m, Memory *memory, Level *level, int32_t finer)
-{
-    const size_t most = (size_t)finer * (size_t)parents_of(m);
-    return array_reserve(memory, &level->coordinate, 3 * most, sizeof(int32_t)) && array_reserve(memory, &level->parent, most, sizeof(int32_t));
-}
-
 /* The level is listed. */
 static bool reserve_level(const Multilevel *m, Memory *memory, Level *level)
 {
@@ -58,15 +56,25 @@ static bool reserve_level(const Multilevel *m, Memory *memory, Level *level)
            array_reserve(memory, &level->vector, floats, sizeof(float)) && array_reserve(memory, &level->inverse, floats, sizeof(float));
 }
 
-/* Lists the blocks over those of the finer level, and the next ones that its odd blocks reach into. */
-static void list_parents(Multilevel *m, Level *level, const Level *finer)
+static bool add_block(Level *level, Memory *memory, const int32_t key[KEY])
 {
-    int32_t *coordinate = level->coordinate.data, *parent = level->parent.data;
+    const size_t block = sizeof(int32_t[KEY]), blocks = (size_t)level->blocks;
+    if (!array_grow(memory, &level->coordinate, blocks + 1, block, blocks * block)) return false;
+    memcpy((int32_t *)level->coordinate.data + KEY * level->blocks++, key, block);
+    return true;
+}
+
+/* Lists the blocks over those of the finer level, and the next ones that its odd blocks reach into. False: no memory. */
+static bool list_parents(Multilevel *m, Memory *memory, Level *level, const Level *finer)
+{
+    const size_t most = (size_t)finer->blocks * (size_t)parents_of(m); /* all could be different ones */
+    if (!array_reserve(memory, &level->parent, most, sizeof(int32_t)) || !open_table(m, memory, most)) return false;
+    int32_t *parent = level->parent.data;
     level->blocks = 0;
     for (int32_t b = 0; b < finer->blocks; b++) {
-        const int32_t *c = (const int32_t *)finer->coordinate.data + 3 * b;
+        const int32_t *c = (const int32_t *)finer->coordinate.data + KEY * b;
         for (int n = 0; n < parents_of(m); n++) {
-            int32_t up[3];
+            int32_t up[KEY] = {[BODY] = c[BODY]};
             bool reaches = true;
             for (int a = 0; a < 3; a++) {
                 const int next = n >> a & 1;
@@ -77,12 +85,13 @@ static void list_parents(Multilevel *m, Level *level, const Level *finer)
             if (!reaches) continue;
             uint32_t *slot = find_slot(m, level, up);
             if (*slot == 0) {
-                memcpy(coordinate + 3 * level->blocks, up, sizeof up);
-                *slot = (uint32_t)++level->blocks;
+                if (!add_block(level, memory, up)) return false;
+                *slot = (uint32_t)level->blocks;
             }
             parent[b * parents_of(m) + n] = (int32_t)*slot - 1;
         }
     }
+    return true;
 }
 
 static void list_children(const Multilevel *m, Level *level, const Level *finer)
@@ -90,7 +99,7 @@ static void list_children(const Multilevel *m, Level *level, const Level *finer)
     int32_t *child = level->child.data;
     for (int32_t i = 0; i < level->blocks * children_of(m); i++) child[i] = -1;
     for (int32_t b = 0; b < finer->blocks; b++) {
-        const int32_t *c = (const int32_t *)finer->coordinate.data + 3 * b;
+        const int32_t *c = (const int32_t *)finer->coordinate.data + KEY * b;
         const int32_t *parent = (const int32_t *)level->parent.data + b * parents_of(m);
         for (int n = 0; n < parents_of(m); n++) {
             if (parent[n] < 0) continue;
@@ -106,22 +115,29 @@ static int32_t extent_of(const Level *level)
 {
     const int32_t *c = level->coordinate.data;
     int32_t least[3] = {INT32_MAX, INT32_MAX, INT32_MAX}, most[3] = {INT32_MIN, INT32_MIN, INT32_MIN}, extent = 1;
-    for (int32_t i = 0; i < 3 * level->blocks; i++) {
-        least[i % 3] = c[i] < least[i % 3] ? c[i] : least[i % 3];
-        most[i % 3] = c[i] > most[i % 3] ? c[i] : most[i % 3];
-    }
+    for (int32_t b = 0; b < level->blocks; b++)
+        for (int a = 0; a < 3; a++) {
+            const int32_t place = c[KEY * b + a];
+            least[a] = place < least[a] ? place : least[a];
+            most[a] = place > most[a] ? place : most[a];
+        }
     for (int a = 0; a < 3 && level->blocks > 0; a++) extent = most[a] - least[a] >= extent ? most[a] - least[a] + 1 : extent;
     return extent;
+}
+
+static void key_of(const Grid *grid, int32_t block, int32_t shift, int32_t key[KEY])
+{
+    const int32_t *place = (const int32_t *)grid->coordinate.data + 3 * block;
+    for (int a = 0; a < 3; a++) key[a] = a < grid->dimension ? place[a] + shift : 0;
+    key[BODY] = body_of_block(grid, block);
 }
 
 /* The finest level: the blocks of the grid, moved by `shift`. */
 static bool list_finest(Multilevel *m, Memory *memory, const Grid *grid, int32_t shift)
 {
     Level *level = &m->level[0];
-    if (!array_reserve(memory, &level->coordinate, 3 * (size_t)grid->node_blocks, sizeof(int32_t))) return false;
-    const int32_t *from = grid->coordinate.data;
-    int32_t *to = level->coordinate.data;
-    for (int32_t i = 0; i < 3 * grid->node_blocks; i++) to[i] = i % 3 < grid->dimension ? from[i] + shift : 0;
+    if (!array_reserve(memory, &level->coordinate, KEY * (size_t)grid->node_blocks, sizeof(int32_t))) return false;
+    for (int32_t b = 0; b < grid->node_blocks; b++) key_of(grid, b, shift, (int32_t *)level->coordinate.data + KEY * b);
     level->blocks = grid->node_blocks;
     return true;
 }
@@ -129,9 +145,13 @@ static bool list_finest(Multilevel *m, Memory *memory, const Grid *grid, int32_t
 /* Whether the levels are those of the last substep: it had the same blocks. */
 static bool is_built(const Multilevel *m, const Grid *grid, int width, int32_t shift)
 {
-    const int32_t *now = grid->coordinate.data, *before = m->level[0].coordinate.data;
+    const int32_t *before = m->level[0].coordinate.data;
     bool same = m->built && m->width == width && m->shift == shift && m->level[0].blocks == grid->node_blocks;
-    for (int32_t i = 0; i < 3 * grid->node_blocks && same; i++) same = i % 3 >= grid->dimension || before[i] == now[i] + shift;
+    for (int32_t b = 0; b < grid->node_blocks && same; b++) {
+        int32_t key[KEY];
+        key_of(grid, b, shift, key);
+        same = memcmp(before + KEY * b, key, sizeof key) == 0;
+    }
     return same;
 }
 
@@ -152,10 +172,7 @@ bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width
     while (m->levels < most_levels && extent_of(&m->level[m->levels - 1]) > (m->levels > 1 ? 2 : 1)) { /* 2: a block, and what reaches over its end */
         const Level *finer = &m->level[m->levels - 1];
         Level *level = &m->level[m->levels];
-        const size_t most = (size_t)finer->blocks * (size_t)parents_of(m);
-        if (!reserve_list(m, memory, level, finer->blocks) || !open_table(m, memory, most)) return false;
-        list_parents(m, level, finer);
-        if (!reserve_level(m, memory, level)) return false;
+        if (!list_parents(m, memory, level, finer) || !reserve_level(m, memory, level)) return false;
         list_children(m, level, finer);
         m->levels++;
     }
@@ -291,7 +308,7 @@ static inline void load_coarse(const TransferJob *job, int32_t block, float *coa
 {
     const Multilevel *m = job->m;
     const int depth = m->dimension == 3 ? COARSE : 1;
-    const int32_t *c = (const int32_t *)job->finer->coordinate.data + 3 * block;
+    const int32_t *c = (const int32_t *)job->finer->coordinate.data + KEY * block;
     const int32_t *parent = (const int32_t *)job->level->parent.data + block * parents_of(m);
     for (int k = 0; k < depth; k++)
         for (int j = 0; j < COARSE; j++)

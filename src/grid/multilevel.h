@@ -28,7 +28,7 @@ typedef enum LevelsEnd {
 
 typedef struct Level {
     int32_t blocks;
-    Array coordinate; /* int32_t[3] per block */
+    Array coordinate; /* int32_t[4] per block: its place, and its body: hats are of one body each */
     Array child;      /* per block 3^d blocks of the finer level, from 2c - 1 to 2c + 1 per axis, or -1 */
     Array parent;     /* per block of the finer level 2^d blocks of this one: c/2 and the next per axis */
     Array vector;     /* `width` floats per node */

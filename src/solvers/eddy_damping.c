@@ -93,7 +93,7 @@ static float share_of(const DualGain *body, double factor)
 static EddyGains gains_of(const World *world)
 {
     EddyGains gains = {0};
-    for (int32_t i = 0; i < world->dual.gains.bodies.count; i++) {
+    for (int32_t i = 0; i < world->grid.bodies; i++) {
         const DualGain *body = dual_gain(world, i);
         gains.before += body->brought;
         gains.left += body->kinetic - body->gain;

@@ -2,6 +2,7 @@
 
 #include "base/assertion.h"
 #include "base/result.h"
+#include "grid/build.h"
 #include "solvers/solver.h"
 #include "world/island_groups.h"
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "grid/build.h"
 #include "solvers/passes.h"
 #include "world/sleep_rows.h"
 #include "world/sleep_wake.h"

@@ -11,6 +11,7 @@
 #include "contact/push_out.h"
 #include "contact/reach.h"
 #include "contact/wall_bodies.h"
+#include "grid/build.h"
 #include "solvers/granular.h"
 #include "solvers/joint.h"
 #include "solvers/passes.h"
@@ -84,7 +85,7 @@ static uint32_t fastest_row(const World *world, int32_t block)
 /* Reports what the kernels counted. Returns how many particles have to go. */
 static uint32_t collect_events(World *world, uint32_t substep)
 {
-    const uint32_t *lost = world->grid.lost.data, *clamped = world->grid.clamped.data, *moved = world->grid.moved.data;
+    const uint32_t *lost = grid_counts(&world->grid, GRID_LOST), *clamped = grid_counts(&world->grid, GRID_CLAMPED), *moved = grid_counts(&world->grid, GRID_MOVED);
     const float *travel = world->grid.travel.data;
     uint32_t total_lost = 0, total_clamped = 0, total_moved = 0;
     pbmpm_event slowed = {0};

@@ -69,7 +69,6 @@ typedef struct EddyDamping {
 
 /* See dual_gains.h. */
 typedef struct DualGains {
-    Bodies bodies;
     Array of_block, of_body; /* DualGain per node block, and per body */
 } DualGains;
 
@@ -151,7 +150,6 @@ typedef struct PrimalState {
     uint32_t yield_grips;      /* contacts with bodies that yield, see primal_yield.h */
     Array block_share;         /* see KernelArgs; with BDF2 */
     Array body_share;          /* the same per body */
-    Bodies bodies;
     Multilevel multilevel;
 } PrimalState;
 

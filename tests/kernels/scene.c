@@ -1,3 +1,4 @@
+#include "grid/build.h"
 #include "scene.h"
 
 #include <float.h>
@@ -217,7 +218,16 @@ static void corner_of(const Scene *scene, int32_t block, int32_t below, int32_t 
     for (int a = 0; a < 3; a++) corner[a] = a < scene->step.dimension ? grid->anchor[a] + coordinate[a] * K_BLOCK_AXIS - below : 0;
 }
 
-/* At nodes that particles may reach. */
+/* The first block in the place of one. */
+static int32_t first_there(const Grid *grid, int32_t block)
+{
+    const int32_t *place = grid->coordinate.data;
+    int32_t first = 0;
+    while (memcmp(place + 3 * first, place + 3 * block, 3 * sizeof *place) != 0) first++;
+    return first;
+}
+
+/* At nodes that particles may reach; the same for all bodies. */
 static void open_gaps(Scene *scene)
 {
     World *world = scene->world;
@@ -232,7 +242,8 @@ static void open_gaps(Scene *scene)
         corner_of(scene, (int32_t)(i / (size_t)grid->block_cells), 0, corner);
         node_at(corner, K_BLOCK_AXIS, (int)(i % (size_t)grid->block_cells), at);
         const double gap = fmax(0.0, random_in(&random, -scene->gap, scene->gap));
-        scene->node_gap[i] = reference_index(&reached, at) >= 0 ? (float)gap : 0.0f;
+        const size_t cells = (size_t)grid->block_cells, first = (size_t)first_there(grid, (int32_t)(i / cells)) * cells + i % cells;
+        scene->node_gap[i] = first < i ? scene->node_gap[first] : reference_index(&reached, at) >= 0 ? (float)gap : 0.0f;
     }
     reference_grid_free(&reached);
     world->args.primal.node_gap = scene->node_gap;
@@ -311,6 +322,7 @@ void scene_run_nodes(Scene *scene, Kernel *kernel)
     float_mode_leave(mode);
 }
 
+/* A place in which several bodies have blocks has matter in one of them at most: what is not 0 counts. */
 RefGrid scene_nodes_of(const Scene *scene, const float *values)
 {
     const Grid *grid = &scene->world->grid;
@@ -322,9 +334,9 @@ RefGrid scene_nodes_of(const Scene *scene, const float *values)
             const float *node = values + ((size_t)block * (size_t)grid->block_cells + (size_t)i) * K_NODE_WIDTH;
             node_at(corner, K_BLOCK_AXIS, i, at);
             const int64_t to = reference_index(&out, at);
-            if (to >= 0)
+            if (to >= 0 && (node[0] != 0.0f || node[1] != 0.0f || node[2] != 0.0f || node[3] != 0.0f))
                 out.node[to] = (RefNode){.u = {(double)node[0], (double)node[1], (double)node[2]}, .mass = (double)node[3]};
-            else
+            else if (to < 0)
                 check_true(node[0] == 0.0f && node[1] == 0.0f && node[2] == 0.0f && node[3] == 0.0f, "untouched node is 0", i);
         }
     }
@@ -342,7 +354,7 @@ RefGrid scene_scalars_of(const Scene *scene, const float *values)
             const double value = (double)values[(size_t)block * (size_t)grid->block_cells + (size_t)i];
             node_at(corner, K_BLOCK_AXIS, i, at);
             const int64_t to = reference_index(&out, at);
-            if (to >= 0)
+            if (to >= 0 && value != 0.0)
                 out.node[to].mass = value;
             else
                 check_true(value == 0.0, "untouched value is 0", i);

@@ -7,6 +7,7 @@
 #include "contact/contacts_find.h"
 #include "contact/field.h"
 #include "contact/push_out.h"
+#include "grid/build.h"
 #include "random.h"
 #include "world/colliders.h"
 #include "world/world.h"

@@ -4,6 +4,7 @@
 #include <unity.h>
 
 #include "books.h"
+#include "grid/build.h"
 #include "random.h"
 #include "services/lifecycle.h"
 #include "solvers/solver.h"

@@ -4,7 +4,8 @@
 #include <unity.h>
 
 #include "books.h"
-#include "grid/grid.h"
+#include "grid/bodies.h"
+#include "grid/build.h"
 #include "random.h"
 
 void setUp(void) {}
@@ -140,7 +141,7 @@ static void check_stable_permutation(const Sorted *s)
             TEST_ASSERT_TRUE(s->particles.mass[row] > s->particles.mass[row - 1]);
 }
 
-/* Neighbours are where they should be, all that exist are linked, and links go both ways. */
+/* Neighbours are where they should be, all of the same body that exist are linked, and links go both ways. */
 static void check_neighbours(const Grid *grid)
 {
     const int centre = grid->neighbours / 2;
@@ -150,7 +151,7 @@ static void check_neighbours(const Grid *grid)
             const int32_t other = neighbours_of(grid, b)[n];
             if (other < 0) continue;
             const int32_t step[3] = {n % 3 - 1, n / 3 % 3 - 1, grid->dimension == 3 ? n / 9 - 1 : 0};
-            TEST_ASSERT_TRUE(other < grid->node_blocks);
+            TEST_ASSERT_TRUE(other < grid->node_blocks && body_of_block(grid, other) == body_of_block(grid, b));
             for (int a = 0; a < 3; a++) TEST_ASSERT_EQUAL_INT32(coordinate_of(grid, b)[a] + step[a], coordinate_of(grid, other)[a]);
             TEST_ASSERT_EQUAL_INT32(b, neighbours_of(grid, other)[grid->neighbours - 1 - n]);
         }
@@ -163,6 +164,7 @@ static void check_neighbours(const Grid *grid)
                 distance = abs(step) > distance ? abs(step) : distance;
                 if (a < grid->dimension) index = index * 3 + step + 1;
             }
+            if (body_of_block(grid, b) != body_of_block(grid, c)) continue;
             TEST_ASSERT_TRUE(distance > 0); /* no block twice */
             if (distance == 1) TEST_ASSERT_EQUAL_INT32(c, neighbours_of(grid, b)[index]);
         }
@@ -197,13 +199,27 @@ static uint64_t morton(const int32_t c[3])
     return code;
 }
 
-/* Blocks with particles first, each kind in Morton order; blocks nobody touches do not exist. */
+static bool is_before(const Grid *grid, int32_t b) { return morton(coordinate_of(grid, b - 1)) < morton(coordinate_of(grid, b)); }
+
+/* The first block in the place of one. */
+static int32_t first_there(const Grid *grid, int32_t b)
+{
+    int32_t first = 0;
+    while (memcmp(coordinate_of(grid, first), coordinate_of(grid, b), 3 * sizeof(int32_t)) != 0) first++;
+    return first;
+}
+
+/* Blocks with particles first, then others, both in Morton order; then copies in the order of these; blocks nobody touches do not exist. */
 static void check_order_of_blocks(const Grid *grid)
 {
-    for (int32_t b = 1; b < grid->node_blocks; b++)
-        if (b != grid->particle_blocks)
-            TEST_ASSERT_TRUE(morton(coordinate_of(grid, b - 1)) < morton(coordinate_of(grid, b)));
-    for (int32_t b = grid->particle_blocks; b < grid->node_blocks; b++) {
+    int32_t b = 1;
+    while (b < grid->particle_blocks && is_before(grid, b)) b++;
+    TEST_ASSERT_EQUAL_INT32(grid->particle_blocks, b);
+    do b++;
+    while (b < grid->node_blocks && is_before(grid, b));
+    for (const int32_t copies = b; b < grid->node_blocks; b++)
+        TEST_ASSERT_TRUE(first_there(grid, b) < copies && (b == copies || first_there(grid, b - 1) <= first_there(grid, b)));
+    for (b = grid->particle_blocks; b < grid->node_blocks; b++) {
         bool near = false;
         for (int n = 0; n < grid->neighbours; n++) {
             const int32_t other = neighbours_of(grid, b)[n];

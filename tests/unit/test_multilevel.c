@@ -6,6 +6,7 @@
 #include <unity.h>
 
 #include "books.h"
+#include "grid/build.h"
 #include "grid/multilevel.h"
 #include "random.h"
 

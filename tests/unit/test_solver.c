@@ -5,6 +5,7 @@
 #include <unity.h>
 
 #include "base/clock.h"
+#include "grid/build.h"
 #include "random.h"
 #include "services/lifecycle.h"
 #include "solvers/dual/dual.h"

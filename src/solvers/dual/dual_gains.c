@@ -9,15 +9,13 @@ enum { SUMS = sizeof(DualGain) / sizeof(double), BLOCK_GRAIN = 8, W = K_NODE_WID
 bool dual_gains_prepare(World *world)
 {
     DualGains *gains = &world->dual.gains;
-    return bodies_find(&gains->bodies, &world->memory, &world->grid) &&
-           array_reserve(&world->memory, &gains->of_block, (size_t)world->grid.node_blocks, sizeof(DualGain)) &&
-           array_reserve(&world->memory, &gains->of_body, (size_t)world->grid.node_blocks, sizeof(DualGain));
+    return array_reserve(&world->memory, &gains->of_block, (size_t)world->grid.node_blocks, sizeof(DualGain)) &&
+           array_reserve(&world->memory, &gains->of_body, (size_t)world->grid.bodies, sizeof(DualGain));
 }
 
 void dual_gains_free(World *world)
 {
     DualGains *gains = &world->dual.gains;
-    bodies_free(&gains->bodies, &world->memory);
     array_free(&world->memory, &gains->of_block);
     array_free(&world->memory, &gains->of_body);
 }
@@ -70,17 +68,17 @@ static void add(DualGain *to, const DualGain *from)
 void dual_gains_find(World *world)
 {
     DualGains *gains = &world->dual.gains;
-    const int32_t *of_block = gains->bodies.of_block.data;
+    const int32_t *of_block = world->grid.body.data;
     const DualGain *sums = gains->of_block.data;
     DualGain *body = gains->of_body.data;
     Loops loops;
     loops_open(&loops, world->pool);
     LOOPS_ADD(&loops, grid_nodes(&world->grid, BLOCK_GRAIN), sum_blocks, &world);
     loops_run(&loops);
-    memset(body, 0, (size_t)gains->bodies.count * sizeof *body);
+    memset(body, 0, (size_t)world->grid.bodies * sizeof *body);
     for (int32_t block = 0; block < world->grid.node_blocks; block++) add(&body[of_block[block]], &sums[block]);
 }
 
 const DualGain *dual_gain(const World *world, int32_t body) { return (const DualGain *)world->dual.gains.of_body.data + body; }
 
-const DualGain *dual_gain_in(const World *world, int32_t block) { return dual_gain(world, ((const int32_t *)world->dual.gains.bodies.of_block.data)[block]); }
+const DualGain *dual_gain_in(const World *world, int32_t block) { return dual_gain(world, body_of_block(&world->grid, block)); }

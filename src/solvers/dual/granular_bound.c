@@ -78,7 +78,7 @@ static void sum_growth(void *context, int32_t begin, int32_t end)
 /* Adds up blocks. True if a body gains. */
 static bool find_gaining(World *world)
 {
-    const int32_t *body_of = world->dual.gains.bodies.of_block.data, count = world->dual.gains.bodies.count;
+    const int32_t *body_of = world->grid.body.data, count = world->grid.bodies;
     const Bound *of_block = of_blocks(world);
     Bound *bound = world->dual.bounds.data;
     bool any = false;
@@ -123,7 +123,7 @@ static float kept_of(const DualGain *gain, const Bound *bound)
 
 static void find_kept(World *world)
 {
-    const int32_t *body_of = world->dual.gains.bodies.of_block.data;
+    const int32_t *body_of = world->grid.body.data;
     const Bound *of_block = of_blocks(world);
     Bound *bound = world->dual.bounds.data;
     pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, sum_answers, world);
@@ -131,7 +131,7 @@ static void find_kept(World *world)
         bound[body_of[block]].answer += of_block[block].answer;
         bound[body_of[block]].idle += of_block[block].idle;
     }
-    for (int32_t body = 0; body < world->dual.gains.bodies.count; body++)
+    for (int32_t body = 0; body < world->grid.bodies; body++)
         if (bound[body].gains) bound[body].kept = kept_of(dual_gain(world, body), &bound[body]);
 }
 
@@ -146,7 +146,7 @@ static void scale_blocks(void *context, int32_t begin, int32_t end)
     const Grid *grid = &world->grid;
     const size_t tile = (size_t)grid->tile_nodes * W + K_TILE_PAD;
     const uint32_t *block_begin = grid->block_begin.data;
-    const int32_t *body_of = world->dual.gains.bodies.of_block.data;
+    const int32_t *body_of = world->grid.body.data;
     for (int32_t block = begin; block < end; block++) {
         const Bound *bound = (const Bound *)world->dual.bounds.data + body_of[block];
         const size_t first = block_begin[block], count = block_begin[block + 1] - first;

@@ -33,7 +33,7 @@ pbmpm_result multistep_prepare(World *world)
     }
     PrimalState *state = &world->primal;
     if (array_reserve(&world->memory, &state->block_share, (size_t)world->grid.node_blocks, sizeof(float)) &&
-        array_reserve(&world->memory, &state->body_share, (size_t)state->bodies.count, sizeof(float)))
+        array_reserve(&world->memory, &state->body_share, (size_t)world->grid.bodies, sizeof(float)))
         return PBMPM_OK;
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for BDF2 on %d blocks", world->grid.node_blocks);
 }
@@ -60,7 +60,7 @@ static bool has_past(const World *world, int32_t block)
 void multistep_bind(World *world)
 {
     const Particles *p = &world->particles;
-    const int32_t *body = world->primal.bodies.of_block.data;
+    const int32_t *body = world->grid.body.data;
     float *of_body = world->primal.body_share.data, *share = world->primal.block_share.data;
     KernelArgs *a = &world->args;
     if (!is_on(world)) return;
@@ -70,7 +70,7 @@ void multistep_bind(World *world)
     memcpy(a->particles.past_affine, p->past_affine, sizeof a->particles.past_affine);
     memcpy(a->particles.past_way, p->past_way, sizeof a->particles.past_way);
     memcpy(a->particles.past_turn, p->past_turn, sizeof a->particles.past_turn);
-    for (int32_t i = 0; i < world->primal.bodies.count; i++) of_body[i] = BDF2_SHARE;
+    for (int32_t i = 0; i < world->grid.bodies; i++) of_body[i] = BDF2_SHARE;
     for (int32_t block = 0; block < world->grid.particle_blocks; block++)
         if (!has_past(world, block)) of_body[body[block]] = 1.0f;
     for (int32_t block = 0; block < world->grid.node_blocks; block++) share[block] = of_body[body[block]];

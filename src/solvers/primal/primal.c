@@ -84,11 +84,10 @@ pbmpm_result primal_prepare(World *world)
                     array_reserve(memory, &state->vectors, VECTORS * nodes * W, sizeof(float)) &&
                     array_reserve(memory, &state->inverse, nodes, sizeof(float)) &&
                     array_reserve(memory, &state->sums, SUMS * blocks, sizeof(double)) &&
-                    bodies_find(&state->bodies, memory, &world->grid) &&
-                    array_reserve(memory, &state->body_sums, (size_t)state->bodies.count, sizeof(BodySum)) &&
-                    array_reserve(memory, &state->friction, (size_t)state->bodies.count, sizeof(BodyFriction)) &&
-                    array_reserve(memory, &state->moves, (size_t)state->bodies.count, sizeof(BodyMove)) &&
-                    array_reserve(memory, &state->rigid, (size_t)state->bodies.count, sizeof(RigidBody)) &&
+                    array_reserve(memory, &state->body_sums, (size_t)world->grid.bodies, sizeof(BodySum)) &&
+                    array_reserve(memory, &state->friction, (size_t)world->grid.bodies, sizeof(BodyFriction)) &&
+                    array_reserve(memory, &state->moves, (size_t)world->grid.bodies, sizeof(BodyMove)) &&
+                    array_reserve(memory, &state->rigid, (size_t)world->grid.bodies, sizeof(RigidBody)) &&
                     multilevel_build(&state->multilevel, memory, &world->grid, W, LEVELS_OVER_MATTER);
     if (!ok || !prepare_kept(world)) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the primal solver on %d blocks", world->grid.node_blocks);
     return multistep_prepare(world);
@@ -100,7 +99,6 @@ void primal_free(World *world)
     Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->kept, &s->among_liquid, &s->sums, &s->body_sums, &s->rigid, &s->friction, &s->moves};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
-    bodies_free(&s->bodies, &world->memory);
     multilevel_free(&s->multilevel, &world->memory);
 }
 
@@ -332,10 +330,10 @@ static void renew_friction(Primal *p)
 {
     PrimalState *state = &p->world->primal;
     BodyFriction *body = state->friction.data;
-    const int32_t *of_block = state->bodies.of_block.data;
+    const int32_t *of_block = p->world->grid.body.data;
     const double *sums = state->sums.data;
     p->energy -= p->total[0];
-    for (int32_t i = 0; i < state->bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         body[i].held = false;
         memset(body[i].gained, 0, sizeof body[i].gained);
         for (int k = 0; k < body[i].groups; k++) memset(body[i].group[k].push, 0, sizeof body[i].group[k].push);
@@ -344,7 +342,7 @@ static void renew_friction(Primal *p)
         for (int c = 0; c < 3; c++) body[of_block[block]].gained[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
         constraints_sum_push(p->contacts, p->best, p->gradient, p->slip_min, block, &body[of_block[block]]);
     }
-    constraints_scale(body, state->bodies.count);
+    constraints_scale(body, p->world->grid.bodies);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) constraints_set_limits(p->contacts, block, &body[of_block[block]]);
     primal_over_blocks(p, add_friction);
     p->energy += p->total[SUMS - 1];
@@ -647,10 +645,9 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
     }
     const BodySum *body = primal_body_of(p, block);
     const bool balanced = body->leans && (!body->with_liquid || p->mixed);
-    const uint64_t falls = p->falls && !body->with_liquid ? p->falls[block] : 0;
     if (!body->with_liquid) memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     for (size_t i = begin; i < end && balanced; i += W)
-        for (size_t c = i; c < i + 3 && !(falls >> (i - begin) / W & 1); c++) p->node[c] = p->world->args.grid.node_before[c] - p->world->args.gravity[c - i];
+        for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.grid.node_before[c] - p->world->args.gravity[c - i];
     if (!p->yields) constraints_project(p->contacts, p->node, block, block + 1);
     for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
 }
@@ -670,8 +667,8 @@ static void find_friction(Primal *p)
     p->slip_min = constraints_slip_min(&p->world->substep);
     p->rubs = constraints_have_friction(p->contacts);
     if (!p->rubs) return;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i].groups = 0;
-    constraints_group(p->contacts, state->bodies.of_block.data, body);
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) body[i].groups = 0;
+    constraints_group(p->contacts, p->world->grid.body.data, body);
 }
 
 /* Up to the iterations. */

@@ -11,7 +11,7 @@
 BodySum *primal_body_of(const Primal *p, int32_t block)
 {
     const PrimalState *state = &p->world->primal;
-    return (BodySum *)state->body_sums.data + ((const int32_t *)state->bodies.of_block.data)[block];
+    return (BodySum *)state->body_sums.data + body_of_block(&p->world->grid, block);
 }
 
 bool primal_is_multistep(const Primal *p, int32_t block)
@@ -111,7 +111,7 @@ uint32_t primal_check_bodies(Primal *p)
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .held = body[i].held, .stiff = body[i].stiff, .with_liquid = body[i].with_liquid};
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .held = body[i].held, .stiff = body[i].stiff, .with_liquid = body[i].with_liquid};
     primal_over_blocks(p, sum_motion);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = primal_body_of(p, block);
@@ -137,7 +137,7 @@ uint32_t primal_check_bodies(Primal *p)
         b->pressed += p->joint ? liquid : 0.0;
         b->pressed_rest += p->joint ? liquid_rest : 0.0;
     }
-    for (int32_t i = 0; i < state->bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         double gave[3];
         for (int c = 0; c < 3; c++) gave[c] = body[i].moved[c] - body[i].momentum[c];
         body[i].work += constraints_exchanged_work(&body[i].exchange, gave);
@@ -207,7 +207,7 @@ static uint32_t let_pay(Primal *p)
     RigidBody *rigid = state->rigid.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    for (int32_t i = 0; i < state->bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         const BodySum *b = &body[i];
         if (!b->failed) continue;
         const double gain = b->after - b->before - b->work, own = primal_own_motion(b);
@@ -227,7 +227,7 @@ static uint32_t let_pay(Primal *p)
 static uint32_t find_failed(Primal *p)
 {
     RigidBody *rigid = p->world->primal.rigid.data;
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) rigid[i].kept = 1.0;
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) rigid[i].kept = 1.0;
     primal_keep_momentum(p);
     return primal_check_bodies(p);
 }
@@ -283,7 +283,7 @@ static float fall_of(const World *world)
 void primal_find_leaning(Primal *p)
 {
     const float fall = fall_of(p->world);
-    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
+    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->grid.bodies * sizeof(BodySum));
     for (int32_t block = 0; block < p->world->grid.particle_blocks; block++)
         if (has_liquid(p->world, block)) primal_body_of(p, block)->with_liquid = true;
     if (!p->sketches) primal_widen_gaps(p); /* the dual needs the spare array */
@@ -293,5 +293,4 @@ void primal_find_leaning(Primal *p)
         body->held = body->held || constraints_any_stick(p->contacts, block);
         body->meets = body->meets || constraints_count(p->contacts, block) > 0;
     }
-    primal_find_pieces(p, fall);
 }

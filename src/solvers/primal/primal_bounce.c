@@ -109,7 +109,7 @@ void primal_find_bounces(Primal *p)
     RigidBody *body = state->rigid.data;
     const BodySum *of = state->body_sums.data;
     p->bounces = false;
-    for (int32_t i = 0; i < state->bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         body[i].bounce = 0.0;
         body[i].bounces = of[i].touches && !of[i].with_liquid && !of[i].held && !body[i].multistep && body[i].kept == 1.0;
         YieldBounce other;
@@ -120,7 +120,7 @@ void primal_find_bounces(Primal *p)
     if (!p->bounces) return;
     primal_over_blocks(p, sum_change);
     primal_gather_rigid(p, BOUNCE_SUMS);
-    for (int32_t i = 0; i < state->bodies.count; i++)
+    for (int32_t i = 0; i < p->world->grid.bodies; i++)
         if (body[i].bounces) {
             YieldBounce other;
             find_bounce(&body[i], &of[i], p->world->args.gravity, primal_yield_bounce(p, i, &other) ? &other : NULL);
@@ -158,8 +158,8 @@ static void find_shares(void *context, int32_t begin, int32_t end)
     const ShareJob *job = context;
     World *world = job->world;
     const RigidBody *bodies = world->primal.rigid.data;
-    const int32_t *of_block = world->primal.bodies.of_block.data;
-    const uint32_t *clamped = world->grid.clamped.data;
+    const int32_t *of_block = world->grid.body.data;
+    const uint32_t *clamped = grid_counts(&world->grid, GRID_CLAMPED);
     double *share = world->primal.sums.data;
     for (int32_t block = begin; block < end; block++) {
         share[block] = 1.0;
@@ -172,10 +172,10 @@ void primal_find_shares(World *world, BlockShare *find)
 {
     ShareJob job = {world, find};
     RigidBody *bodies = world->primal.rigid.data;
-    const int32_t *of_block = world->primal.bodies.of_block.data;
+    const int32_t *of_block = world->grid.body.data;
     const double *share = world->primal.sums.data;
     pool_for(world->pool, world->grid.particle_blocks, 8, find_shares, &job);
-    for (int32_t i = 0; i < world->primal.bodies.count; i++) bodies[i].share = 1.0;
+    for (int32_t i = 0; i < world->grid.bodies; i++) bodies[i].share = 1.0;
     for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
         RigidBody *body = &bodies[of_block[block]];
         body->share = fmin(body->share, share[block]);
@@ -204,7 +204,7 @@ static double share_of_bounce(World *world, const RigidBody *body, int32_t block
 static void each_velocity(World *world, int32_t begin, int32_t end, bool keep)
 {
     const RigidBody *bodies = world->primal.rigid.data;
-    const int32_t *of_block = world->primal.bodies.of_block.data;
+    const int32_t *of_block = world->grid.body.data;
     const uint32_t *rows = world->grid.block_begin.data;
     Particles *p = &world->particles;
     const float fall = (float)world->substep.dt;
@@ -234,10 +234,10 @@ void primal_before_going(World *world)
 void primal_bounce(World *world, const ContactFrame *contacts)
 {
     RigidBody *bodies = world->primal.rigid.data;
-    const int32_t *of_block = world->primal.bodies.of_block.data;
+    const int32_t *of_block = world->grid.body.data;
     if (!world->primal.bounces) return;
     primal_find_shares(world, share_of_bounce);
-    for (int32_t i = 0; i < world->primal.bodies.count; i++) bodies[i].bounce *= bodies[i].share;
+    for (int32_t i = 0; i < world->grid.bodies; i++) bodies[i].bounce *= bodies[i].share;
     for (int32_t block = 0; block < world->grid.node_blocks; block++) constraints_scale_impulses(contacts, block, 1.0 + bodies[of_block[block]].bounce);
     pool_for(world->pool, world->grid.particle_blocks, 8, bounce_blocks, world);
 }

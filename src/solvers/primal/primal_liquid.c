@@ -67,7 +67,7 @@ static bool all_can_pay(Primal *p)
     BodySum *body = p->world->primal.body_sums.data;
     bool can = true;
     primal_check_bodies(p);
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         body[i].kept = 1.0f;
         body[i].failed = body[i].with_liquid && !find_share(&body[i]);
         for (int c = 0; c < 3; c++) body[i].mean[c] = (float)mean_of(&body[i], c);
@@ -82,7 +82,7 @@ static void earn(Primal *p)
 {
     const BodySum *body = p->world->primal.body_sums.data;
     double lost = 0.0;
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++)
+    for (int32_t i = 0; i < p->world->grid.bodies; i++)
         if (body[i].with_liquid) lost += fmax(0.0, body[i].before + body[i].work - body[i].after);
     p->world->primal.credit += lost * solver_joule(p->world);
     p->world->args.primal.may_feed = p->world->primal.credit > 0.0;
@@ -141,9 +141,9 @@ static bool find_risen(Primal *p)
     const double *sums = p->world->primal.sums.data;
     bool any = false;
     primal_over_blocks(p, sum_rise);
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) ((BodySum *)p->world->primal.body_sums.data)[i].rise = 0.0;
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) ((BodySum *)p->world->primal.body_sums.data)[i].rise = 0.0;
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) primal_body_of(p, block)->rise += sums[(size_t)block * SUMS];
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) any = any || ((BodySum *)p->world->primal.body_sums.data)[i].rise > 0.0;
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) any = any || ((BodySum *)p->world->primal.body_sums.data)[i].rise > 0.0;
     return any;
 }
 
@@ -177,7 +177,7 @@ static void damp_eddies(Primal *p)
     float *kept = eddy_damping_shares(p->world);
     EddyGains gains = {0};
     primal_check_bodies(p);
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         bodies[i].kept = 1.0f;
         gains.before += bodies[i].before;
         gains.left += bodies[i].before + bodies[i].work + bodies[i].fallen;
@@ -252,7 +252,7 @@ static void calm_blocks(void *context, int32_t begin, int32_t end)
 {
     World *world = context;
     const BodySum *bodies = world->primal.body_sums.data;
-    const int32_t *of_block = world->primal.bodies.of_block.data;
+    const int32_t *of_block = world->grid.body.data;
     for (int32_t block = begin; block < end; block++) {
         const BodySum *body = &bodies[of_block[block]];
         if (body->with_liquid && body->kept < 1.0f) calm_block(world, body, block);

@@ -47,7 +47,7 @@ static void block_normal(BodyMove *move, const float *normal)
 static BodyMove *move_of(const Primal *p, int32_t block)
 {
     const PrimalState *state = &p->world->primal;
-    return (BodyMove *)state->moves.data + ((const int32_t *)state->bodies.of_block.data)[block];
+    return (BodyMove *)state->moves.data + body_of_block(&p->world->grid, block);
 }
 
 /* Contacts that hold, and those that a body might run into. */
@@ -70,13 +70,13 @@ static void find_blocked(const Primal *p)
 static void move_on(Primal *p)
 {
     BodyMove *move = p->world->primal.moves.data;
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         for (int a = 0; a < 3; a++) move[i].pull[a] = move[i].missing[a] - move[i].mass * move[i].way[a];
         move[i].stiffness = move[i].mass;
     }
     for (int32_t block = 0; block < p->world->grid.node_blocks && p->rubs; block++)
         constraints_pull(p->contacts, p->best, move_of(p, block)->way, p->slip_min, block, move_of(p, block)->pull, &move_of(p, block)->stiffness);
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         for (int k = 0; k < move[i].blocked; k++) take_out(move[i].normal[k], move[i].pull);
         for (int a = 0; a < 3 && move[i].blocked < 3 && move[i].stiffness > 0.0; a++) move[i].way[a] += move[i].pull[a] / move[i].stiffness;
     }
@@ -195,7 +195,7 @@ static void keep_rotations(Primal *p)
     if (!any) return;
     primal_over_blocks(p, sum_turns);
     primal_gather_rigid(p, 12);
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++)
+    for (int32_t i = 0; i < p->world->grid.bodies; i++)
         if (body[i].turns && body[i].multistep) find_turn(&body[i]);
     primal_over_blocks(p, turn_body);
 }
@@ -209,14 +209,14 @@ void primal_keep_momentum(Primal *p)
     const BodySum *body = state->body_sums.data;
     BodyMove *move = state->moves.data;
     const double *sums = state->sums.data;
-    for (int32_t i = 0; i < state->bodies.count; i++) move[i] = (BodyMove){.blocked = body[i].leans && body[i].with_liquid ? 3 : 0};
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) move[i] = (BodyMove){.blocked = body[i].leans && body[i].with_liquid ? 3 : 0};
     primal_over_blocks(p, sum_momentum_error);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodyMove *m = move_of(p, block);
         m->mass += sums[(size_t)block * SUMS];
         for (int c = 0; c < 3; c++) m->missing[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
     }
-    for (int32_t i = 0; i < state->bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         const double *m = move[i].missing;
         move[i].longest = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]) / fmax(move[i].mass, 1e-30);
     }

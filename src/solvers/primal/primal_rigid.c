@@ -36,7 +36,7 @@ void primal_arm(const double corner[3], size_t node, double arm[3])
 RigidBody *primal_rigid_of(const Primal *p, int32_t block)
 {
     const PrimalState *state = &p->world->primal;
-    return (RigidBody *)state->rigid.data + ((const int32_t *)state->bodies.of_block.data)[block];
+    return (RigidBody *)state->rigid.data + body_of_block(&p->world->grid, block);
 }
 
 /* From the body's centre to the block's first node. */
@@ -87,7 +87,7 @@ void primal_gather_rigid(Primal *p, int count)
     PrimalState *state = &p->world->primal;
     RigidBody *body = state->rigid.data;
     const double *sums = state->sums.data;
-    for (int32_t i = 0; i < state->bodies.count; i++) memset(body[i].sum, 0, sizeof body[i].sum);
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) memset(body[i].sum, 0, sizeof body[i].sum);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         RigidBody *of = primal_rigid_of(p, block);
         for (int k = 0; k < count; k++) of->sum[k] += sums[(size_t)block * SUMS + (size_t)k];
@@ -100,7 +100,7 @@ void primal_find_rigid(Primal *p)
     RigidBody *body = state->rigid.data;
     const BodySum *of = state->body_sums.data;
     p->rigid = false;
-    for (int32_t i = 0; i < state->bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         body[i].turns = !of[i].with_liquid && !of[i].held;
         body[i].kept = 1.0;
         body[i].multistep = false;
@@ -111,7 +111,7 @@ void primal_find_rigid(Primal *p)
         if (primal_is_multistep(p, block)) primal_rigid_of(p, block)->multistep = true;
     primal_over_blocks(p, sum_weights);
     primal_gather_rigid(p, 10);
-    for (int32_t i = 0; i < state->bodies.count; i++)
+    for (int32_t i = 0; i < p->world->grid.bodies; i++)
         if (body[i].turns) weigh_body(&body[i]);
 }
 
@@ -222,11 +222,11 @@ void primal_weigh_rigid(Primal *p)
     RigidBody *body = state->rigid.data;
     const Colliders *colliders = p->contacts->colliders;
     const uint32_t *begin = colliders->contact_begin.data;
-    for (int32_t i = 0; i < state->bodies.count; i++) memcpy(body[i].factor, body[i].mass, sizeof body[i].factor);
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) memcpy(body[i].factor, body[i].mass, sizeof body[i].factor);
     for (int32_t block = 0; block < p->world->grid.node_blocks && colliders->contacts > 0; block++)
         for (uint32_t i = begin[block]; i < begin[block + 1] && primal_rigid_of(p, block)->used; i++)
             add_contact(p, block, primal_rigid_of(p, block), (const Contact *)colliders->contact.data + i);
-    for (int32_t i = 0; i < state->bodies.count; i++)
+    for (int32_t i = 0; i < p->world->grid.bodies; i++)
         if (body[i].turns) primal_factorise(&body[i]);
 }
 
@@ -287,7 +287,7 @@ void primal_solve_rigid(Primal *p)
 {
     RigidBody *body = p->world->primal.rigid.data;
     primal_gather_rigid(p, RIGID_MODES);
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++)
+    for (int32_t i = 0; i < p->world->grid.bodies; i++)
         if (body[i].turns) primal_solve_modes(&body[i], body[i].motion);
 }
 
@@ -319,7 +319,7 @@ void primal_correct_rigid(Primal *p)
 {
     RigidBody *body = p->world->primal.rigid.data;
     primal_gather_rigid(p, RIGID_MODES);
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         double less[RIGID_MODES];
         if (!body[i].used) continue;
         primal_solve_modes(&body[i], less);

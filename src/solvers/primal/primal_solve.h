@@ -84,7 +84,6 @@ typedef struct Primal {
     const struct YieldPair *pair; /* in passes of primal_yield_along.c and primal_yield_heaps.c */
     const float *after;           /* in one of primal_yield_book.c */
     bool rigid; /* a body's rigid motions are solved for */
-    const uint64_t *falls; /* while a solution starts: see primal_pieces.c; null: nothing does */
     double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
     bool mixed;                             /* of solids and liquid */
     bool joint, sketches;                   /* the dual solves too, see joint.h, and has not yet */
@@ -129,11 +128,6 @@ bool primal_is_multistep(const Primal *p, int32_t block);
 
 /* Finds the bodies at or in an obstacle, and those with liquid. */
 void primal_find_leaning(Primal *p);
-
-/* ---- primal_pieces.c ---- */
-
-/* Finds the nodes of pieces of bodies that lean on nothing within what gravity moves them, `fall` [cells]. After the bodies that lean are known. */
-void primal_find_pieces(Primal *p, float fall);
 
 /* After weigh_nodes(), which sums it. */
 void primal_note_stiffness(Primal *p);

@@ -118,7 +118,7 @@ void primal_find_spin(Primal *p)
     const BodySum *of = state->body_sums.data;
     primal_over_blocks(p, sum_torque);
     primal_gather_rigid(p, 16);
-    for (int32_t i = 0; i < state->bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         memset(body[i].spin, 0, sizeof body[i].spin);
         if (body[i].turns && !body[i].multistep && body[i].mass[0][0] > 0.0) find_spin(&body[i], &of[i]);
         body[i].turns = body[i].turns && (body[i].kept < 1.0 || fabs(body[i].spin[0]) + fabs(body[i].spin[1]) + fabs(body[i].spin[2]) > ROUNDING);
@@ -174,7 +174,7 @@ static void limit_turns(World *world)
 {
     RigidBody *body = world->primal.rigid.data;
     primal_find_shares(world, share_of_turn);
-    for (int32_t i = 0; i < world->primal.bodies.count; i++)
+    for (int32_t i = 0; i < world->grid.bodies; i++)
         for (int a = 0; a < 3 && body[i].turns; a++) {
             body[i].spin[a] *= body[i].share;
             if (body[i].share == 0.0) body[i].mean[a] = 0.0;
@@ -205,7 +205,7 @@ static void turn_blocks(void *context, int32_t begin, int32_t end)
 {
     World *world = context;
     const RigidBody *bodies = world->primal.rigid.data;
-    const int32_t *of_block = world->primal.bodies.of_block.data;
+    const int32_t *of_block = world->grid.body.data;
     for (int32_t block = begin; block < end; block++)
         if (bodies[of_block[block]].turns && !sleep_is_still(world, block)) turn_block(world, &bodies[of_block[block]], block);
 }
@@ -214,7 +214,7 @@ void primal_turn(World *world)
 {
     const RigidBody *body = world->primal.rigid.data;
     bool any = false;
-    for (int32_t i = 0; i < world->primal.bodies.count; i++) any = any || body[i].turns;
+    for (int32_t i = 0; i < world->grid.bodies; i++) any = any || body[i].turns;
     if (!any) return;
     limit_turns(world);
     pool_for(world->pool, world->grid.particle_blocks, 8, turn_blocks, world);

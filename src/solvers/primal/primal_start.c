@@ -98,7 +98,7 @@ static void push_bodies(Primal *p)
     RigidBody *body = state->rigid.data;
     const Colliders *colliders = p->contacts->colliders;
     const uint32_t *begin = colliders->contact_begin.data;
-    for (int32_t i = 0; i < state->bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         memcpy(body[i].factor, body[i].inertia, sizeof body[i].factor);
         memcpy(body[i].sum, body[i].motion, RIGID_MODES * sizeof *body[i].sum);
         body[i].strain = 0.0;
@@ -114,7 +114,7 @@ static void fit_bodies(Primal *p)
     RigidBody *body = state->rigid.data;
     primal_over_blocks(p, sum_predicted);
     primal_gather_rigid(p, 2 * RIGID_MODES);
-    for (int32_t i = 0; i < state->bodies.count; i++) {
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         if (!body[i].turns) continue;
         memcpy(body[i].inertia, body[i].mass, sizeof body[i].inertia);
         primal_weigh_turns(body[i].sum + RIGID_MODES, body[i].inertia); /* what is thrown inside out keeps that of small motions */
@@ -127,7 +127,7 @@ static void fit_bodies(Primal *p)
     for (int round = 0; round < ROUNDS && moves; round++) {
         push_bodies(p);
         moves = false;
-        for (int32_t i = 0; i < state->bodies.count; i++) {
+        for (int32_t i = 0; i < p->world->grid.bodies; i++) {
             double next[RIGID_MODES];
             if (!body[i].used) continue;
             primal_factorise(&body[i]);
@@ -189,7 +189,7 @@ static void add_strain(Primal *p)
         const float *e = energy + K_ENERGIES * block;
         primal_rigid_of(p, block)->sum[0] += (double)e[0] + (double)e[1] - (double)e[2] - (double)e[3];
     }
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) body[i].sum[0] -= body[i].strain;
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) body[i].sum[0] -= body[i].strain;
 }
 
 void primal_choose_start(Primal *p)
@@ -201,7 +201,7 @@ void primal_choose_start(Primal *p)
     primal_over_blocks(p, sum_start);
     primal_gather_rigid(p, 1);
     add_strain(p);
-    for (int32_t i = 0; i < state->bodies.count; i++) any = any || (body[i].turns && body[i].sum[0] > 0.0);
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) any = any || (body[i].turns && body[i].sum[0] > 0.0);
     if (!any) return;
     primal_over_blocks(p, start_rigidly);
     primal_evaluate(p);

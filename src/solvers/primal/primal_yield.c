@@ -73,7 +73,7 @@ static void list_grips(YieldList *list, const ContactFrame *contacts, const uint
 /* Their memory is the scratch of walls, which nobody finds here. */
 static YieldList *make_room(World *world, size_t contacts, size_t bodies)
 {
-    const size_t matter = (size_t)world->primal.bodies.count, each = sizeof(YieldGrip) + sizeof(YieldPair);
+    const size_t matter = (size_t)world->grid.bodies, each = sizeof(YieldGrip) + sizeof(YieldPair);
     if (!array_reserve(&world->memory, &world->walls.scratch, sizeof(YieldList) + bodies * sizeof(YieldBody) + contacts * each + matter * sizeof(YieldAccount), 1)) return NULL;
     YieldList *list = world->walls.scratch.data;
     *list = (YieldList){.body = (YieldBody *)(list + 1)};

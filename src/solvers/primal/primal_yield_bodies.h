@@ -72,7 +72,7 @@ static inline YieldBody *yield_bodies(const Primal *p) { return p->yields ? yiel
 static inline YieldGrip *yield_grips(const Primal *p) { return p->yields ? yield_list(p)->grip : NULL; }
 static inline YieldPair *yield_pairs(const Primal *p) { return p->yields ? yield_list(p)->pair : NULL; }
 static inline Contact *yield_contacts(const Primal *p) { return p->contacts->colliders->contact.data; }
-static inline int32_t yield_matter(const Primal *p, int32_t block) { return ((const int32_t *)yield_state(p)->bodies.of_block.data)[block]; }
+static inline int32_t yield_matter(const Primal *p, int32_t block) { return body_of_block(&p->world->grid, block); }
 static inline YieldAccount *yield_account(const Primal *p, int32_t block) { return yield_list(p)->account + yield_matter(p, block); }
 
 /* The contacts of a block. */

@@ -27,7 +27,7 @@ static void sum_gained(Primal *p, int32_t block, size_t begin, size_t end, doubl
 static void open_accounts(Primal *p)
 {
     const double *sums = yield_state(p)->sums.data;
-    memset(yield_list(p)->account, 0, (size_t)yield_state(p)->bodies.count * sizeof(YieldAccount));
+    memset(yield_list(p)->account, 0, (size_t)p->world->grid.bodies * sizeof(YieldAccount));
     primal_over_blocks(p, sum_gained);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
         for (int a = 0; a < 3; a++) yield_account(p, block)->gained[a] += sums[(size_t)block * SUMS + (size_t)a];
@@ -36,7 +36,7 @@ static void open_accounts(Primal *p)
 static void add_up(Primal *p)
 {
     YieldAccount *account = yield_list(p)->account;
-    for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) memcpy(account[i].missing, account[i].gained, sizeof account[i].missing);
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) memcpy(account[i].missing, account[i].gained, sizeof account[i].missing);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
         for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++)
             for (int a = 0; a < 3; a++) yield_account(p, block)->missing[a] -= booked_at(p, i)[a];
@@ -50,7 +50,7 @@ static void begin_levels(Primal *p)
 {
     YieldAccount *account = yield_list(p)->account;
     uint32_t g = 0;
-    for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) account[i].level = NOWHERE;
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) account[i].level = NOWHERE;
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++) yield_bodies(p)[b].level = NOWHERE;
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
         for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++)
@@ -110,7 +110,7 @@ static bool may_share(const Primal *p, const YieldAccount *of, const YieldGrip *
 static void share_missing(Primal *p, int32_t level)
 {
     YieldAccount *account = yield_list(p)->account;
-    for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) account[i].sum = 0.0;
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) account[i].sum = 0.0;
     for (int pass = 0; pass < 2; pass++) {
         uint32_t g = 0;
         for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {

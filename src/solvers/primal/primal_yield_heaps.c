@@ -110,7 +110,7 @@ static void find_heaps(Primal *p)
 {
     YieldBody *bodies = yield_bodies(p);
     YieldAccount *account = yield_list(p)->account;
-    for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) account[i].heap = UINT32_MAX;
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) account[i].heap = UINT32_MAX;
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         bodies[b].heap = b;
         bodies[b].move = (YieldHeap){.stays = false};
