@@ -345,6 +345,33 @@ def falls_from(run: Run, below: float | None = None, beside: float = 0.0, modulu
         run.check("way over true one", way / (G * seconds * (seconds + run.dt) / 2), 0.9, 1.1, why="nothing holds it: Galilei; a tenth")
 
 
+@case(
+    near=dict(),
+    nearer=dict(away=4),
+    stiff=dict(modulus=1e7),
+    cube=dict(dimension=3),
+)
+def lands_beside(run: Run, away: float = 6.0, modulus: float = 1e6, dimension: int = 2) -> None:
+    """A ball falls on the floor so many cells beside a block that lies there."""
+    cell, half, height = 0.025, 0.15, 0.5
+    with run.world(dimension, cell) as world:
+        lying, falling = (world.add_material(Elastic(young_modulus=modulus)) for _ in range(2))
+        world.add_collider(Plane((0, 0, 0)[:dimension], (0, 1, 0)[:dimension]), friction_coefficient=0.5)
+        world.fill(Box((0, half, 0)[:dimension], (half,) * dimension), lying)
+        run.steps(world, 1)
+        world.fill(Sphere((-half - away * cell - 0.1, 0.1 + height, 0)[:dimension], 0.1), falling)
+        fastest = 0.0
+
+        def look(_: float) -> None:
+            nonlocal fastest
+            block, ball = rows_of(world, lying), rows_of(world, falling)
+            if world.positions.array()[block, 0].min() - world.positions.array()[ball, 0].max() > 3 * cell:
+                fastest = max(fastest, float(np.linalg.norm(world.velocities.array()[block].mean(axis=0))))
+
+        run.steps(world, 0.5, after=look)
+        run.check("speed of the block until it is touched", fastest, 0.0, 0.01, why="nothing touches it; at that speed a cell takes 2.5 s")
+
+
 @case(stands=dict(yield_strain=0.05, stands=True), flows=dict(yield_strain=0.0005, stands=False))
 def clay(run: Run, yield_strain: float, stands: bool) -> None:
     """A block of clay stands when its own weight is below what it bears, else it slumps."""
