@@ -9,6 +9,11 @@
 /* What a block is found by: its place and its body. */
 enum { BODY = 3, KEY };
 
+/* The places of a body's blocks. */
+typedef struct Range {
+    int32_t least[3], most[3];
+} Range;
+
 enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH, HALO = 2 * K_BLOCK_AXIS + 1, COARSE = K_BLOCK_AXIS / 2 + 1 };
 
 /* ---- Lists of blocks ---- */
@@ -110,18 +115,20 @@ static void list_children(const Multilevel *m, Level *level, const Level *finer)
     }
 }
 
-/* Over how many blocks a level reaches along the longest axis. */
-static int32_t extent_of(const Level *level)
+/* Over how many blocks of a level a body reaches along the longest axis; of all bodies the most. `range`: room for one per body. */
+static int32_t extent_of(const Level *level, int32_t bodies, Range *range)
 {
-    const int32_t *c = level->coordinate.data;
-    int32_t least[3] = {INT32_MAX, INT32_MAX, INT32_MAX}, most[3] = {INT32_MIN, INT32_MIN, INT32_MIN}, extent = 1;
-    for (int32_t b = 0; b < level->blocks; b++)
+    int32_t extent = 1;
+    for (int32_t i = 0; i < bodies; i++) range[i] = (Range){{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
+    for (int32_t b = 0; b < level->blocks; b++) {
+        const int32_t *key = (const int32_t *)level->coordinate.data + KEY * b;
+        Range *own = &range[key[BODY]];
         for (int a = 0; a < 3; a++) {
-            const int32_t place = c[KEY * b + a];
-            least[a] = place < least[a] ? place : least[a];
-            most[a] = place > most[a] ? place : most[a];
+            own->least[a] = key[a] < own->least[a] ? key[a] : own->least[a];
+            own->most[a] = key[a] > own->most[a] ? key[a] : own->most[a];
+            extent = own->most[a] - own->least[a] >= extent ? own->most[a] - own->least[a] + 1 : extent;
         }
-    for (int a = 0; a < 3 && level->blocks > 0; a++) extent = most[a] - least[a] >= extent ? most[a] - least[a] + 1 : extent;
+    }
     return extent;
 }
 
@@ -168,10 +175,11 @@ bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width
     m->dimension = grid->dimension;
     m->block_cells = grid->block_cells;
     m->levels = 1;
-    if (!list_finest(m, memory, grid, shift)) return false;
-    while (m->levels < most_levels && extent_of(&m->level[m->levels - 1]) > (m->levels > 1 ? 2 : 1)) { /* 2: a block, and what reaches over its end */
+    if (!list_finest(m, memory, grid, shift) || !array_reserve(memory, &m->range, (size_t)grid->bodies, sizeof(Range))) return false;
+    while (m->levels < most_levels) {
         const Level *finer = &m->level[m->levels - 1];
         Level *level = &m->level[m->levels];
+        if (extent_of(finer, grid->bodies, m->range.data) <= (m->levels > 1 ? 2 : 1)) break; /* 2: a block, and what reaches over its end */
         if (!list_parents(m, memory, level, finer) || !reserve_level(m, memory, level)) return false;
         list_children(m, level, finer);
         m->levels++;
@@ -188,6 +196,7 @@ void multilevel_free(Multilevel *m, Memory *memory)
         for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     }
     array_free(memory, &m->table);
+    array_free(memory, &m->range);
     m->built = false;
 }
 

@@ -40,7 +40,7 @@ typedef struct Multilevel {
     int width;                    /* floats per node of all vectors: 1, or K_NODE_WIDTH */
     int levels;                   /* with the finest, whose vectors and inverse are the caller's */
     Level level[MULTILEVEL_MAX];
-    Array table;                  /* hash table of blocks while a level is built */
+    Array table, range;           /* while levels are built: a hash table of blocks; where the blocks of each body lie */
     int32_t shift;                /* of the finest level's blocks against the grid's */
     bool built;                   /* the levels are complete; as long as the grid has the same blocks they stay */
 } Multilevel;

@@ -232,10 +232,10 @@ def test_a_tower_stays_where_it_is(density: float) -> None:
         assert box.position == pytest.approx((1, 0.494), abs=0.004)
 
 
-THIN = pytest.mark.xfail(strict=False, reason="matter above and below a plate thinner than eight cells counts as one piece: docs/limits.md")
+THIN = pytest.mark.xfail(strict=False, reason="matter above and below a plate of two cells shares nodes, so it counts as one body: docs/limits.md")
 
 
-@pytest.mark.parametrize(("thick", "seconds"), [(0.4, 1.5), (0.4, 10), pytest.param(0.2, 10, marks=THIN), pytest.param(0.1, 10, marks=THIN)])
+@pytest.mark.parametrize(("thick", "seconds"), [(0.4, 1.5), (0.4, 10), (0.2, 10), pytest.param(0.1, 10, marks=THIN)])
 def test_a_high_tower_stands(thick: float, seconds: float) -> None:
     """Five stiff crates and five light boxes by turns, eight cells thick, or thinner. What upper solutions leave goes down to the floor; it threw the boxes about at 150 m/s."""
     high = 0.3
