@@ -103,10 +103,11 @@ static inline Span grid_rows(const Grid *grid, int32_t grain)
     return (Span){grid->particle_blocks, grain, (int64_t)(grid->end_row - grid->first_row) * PARTICLE_NS};
 }
 
-/* What a kernel counts per block with particles and per flight. */
+/* What a kernel counts per block with particles and per flight; null without any. */
 static inline uint32_t *grid_counts(const Grid *grid, GridCount kind)
 {
-    return (uint32_t *)grid->counts.data + (size_t)kind * (size_t)(grid->particle_blocks + grid->flights);
+    const int32_t blocks = grid->particle_blocks + grid->flights;
+    return blocks > 0 ? (uint32_t *)grid->counts.data + (size_t)kind * (size_t)blocks : NULL;
 }
 
 /* No blocks, no runs: there are no particles. */

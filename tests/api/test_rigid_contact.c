@@ -63,8 +63,9 @@ static void lay_plank(int32_t dimension, float modulus, float density)
         TEST_ASSERT_TRUE_MESSAGE(body.state.position[1] > 0.3 && body.state.position[1] < 0.46, what);
         if (n >= 75) fastest = fmax(fastest, fabs(body.state.velocity[1]));
     }
-    if (modulus > 2e5f) TEST_ASSERT_TRUE_MESSAGE(fastest < 0.03, what); /* what is softer still swings */
-    TEST_ASSERT_DOUBLE_WITHIN(0.01, 1.0, body.state.position[0]);
+    const bool swings = modulus < 2e5f; /* under the heaviest plank to both sides, by 10 mm with 60 iterations, by 11 at 240 Hz x 30 */
+    if (!swings) TEST_ASSERT_TRUE_MESSAGE(fastest < 0.03, what);
+    TEST_ASSERT_DOUBLE_WITHIN(swings ? 0.022 : 0.01, 1.0, body.state.position[0]); /* twice what it swings when solved well */
     OK(pbmpm_world_destroy(body.world));
 }
 
