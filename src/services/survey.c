@@ -401,12 +401,12 @@ static uint32_t count_far(const double *drop, uint32_t count)
 static void measure_drops(const World *world, Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
-    const uint32_t stride = stride_of(cells, slot);
     double drops[2 * LOOKED_AT], resting[2 * LOOKED_AT]; /* of all; and of what does not fall yet, where nothing below is infinitely far */
-    uint32_t number = 0, count = 0, rests = 0;
+    uint32_t number = 0, count = 0, rests = 0, ends = 0;
+    for (uint32_t i = 0; i < cells->count; i++) ends += cells->share[i].group == slot + 1 && is_end(cells, &cells->share[i], axis, way);
+    const uint32_t stride = 1 + ends / (2 * LOOKED_AT); /* of ends, not of cells: under deep matter they are few, and a hole is measured by them */
     for (uint32_t i = 0; i < cells->count && count < 2 * LOOKED_AT; i++) {
-        if (cells->share[i].group != slot + 1 || number++ % stride != 0) continue;
-        if (!is_end(cells, &cells->share[i], axis, way)) continue;
+        if (cells->share[i].group != slot + 1 || !is_end(cells, &cells->share[i], axis, way) || number++ % stride != 0) continue;
         const double drop = drop_of(world, cells, i, axis, &heap->on_matter);
         if (drop < 0.0) continue;
         drops[count++] = drop < INFINITY ? drop : 0.0;
