@@ -300,14 +300,13 @@ static void find_bodies(Cells *cells)
 
 /* ---- Falling, sliding ---- */
 
-static int axis_of_gravity(const World *world)
+int survey_axis_of_gravity(const World *world)
 {
     int axis = -1;
     for (int a = 0; a < world->def.dimension; a++)
         if (world->settings.gravity[a] != 0.0f && (axis < 0 || fabsf(world->settings.gravity[a]) > fabsf(world->settings.gravity[axis]))) axis = a;
     return axis;
 }
-
 
 /* Sorted by cell. */
 static bool any_of_group(const Cells *cells, const int32_t cell[3], uint32_t group)
@@ -697,7 +696,7 @@ static pbmpm_result look_at_bodies(World *world, Cells *cells, Survey *survey)
     if (!extent) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to look at %u bodies", cells->count);
     for (uint32_t i = 0; i < cells->count; i++) extent[i] = (Extent){0};
     measure_extents(world, cells, extent);
-    if (axis_of_gravity(world) >= 0) measure_levers(world, cells, axis_of_gravity(world), extent);
+    if (survey_axis_of_gravity(world) >= 0) measure_levers(world, cells, survey_axis_of_gravity(world), extent);
     double round[PBMPM_MAX_MATERIALS] = {0};
     for (uint32_t i = 0; i < cells->count; i++) {
         const Extent *of = &extent[i];
@@ -819,7 +818,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
 {
     double runs[3][PBMPM_MAX_MATERIALS + 1], filling[PBMPM_MAX_MATERIALS + 1] = {0}, overlapping[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
     double weight[PBMPM_MAX_MATERIALS + 1] = {0}, narrow[PBMPM_MAX_MATERIALS + 1], error[PBMPM_MAX_MATERIALS + 1];
-    const int down = axis_of_gravity(world);
+    const int down = survey_axis_of_gravity(world);
     const bool floats = may_float(world, cells);
     for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) narrow[group] = floats ? 1.0 : 0.0;
     for (int a = 0; a < cells->dimension && floats; a++)

@@ -35,6 +35,9 @@ typedef struct Survey {
     bool ball_dry;   /* whether one of these is such that no liquid is within two cells of it */
 } Survey;
 
+/* Along which gravity pulls most; -1 without gravity. */
+int survey_axis_of_gravity(const World *world);
+
 /* Needs some bytes per particle, which it gives back. */
 pbmpm_result survey_make(World *world, Survey *survey);
 

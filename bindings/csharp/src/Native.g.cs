@@ -288,8 +288,8 @@ namespace Pbmpm
         SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
         BodyTooThin = 8,
-        /// <summary>the time step damps what bounces, with the dual solver and where bodies hit each other. Figure: substeps that the contact of an equally thick
-        /// ball lasts (Hertz's theory)</summary>
+        /// <summary>the time step damps what bounces: bodies of the dual solver, balls of the primal that fall on obstacles, and bodies that hit each other. Figure: substeps that
+        /// the contact of an equally thick ball lasts (Hertz's theory)</summary>
         BounceDamped = 9,
         /// <summary>a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells]</summary>
         RollingBraked = 10,
@@ -323,7 +323,7 @@ namespace Pbmpm
     /// <summary>What would help.</summary>
     public enum Change : int
     {
-        /// <summary>no setting would help, or only one that costs more than halving the cell size; see the text</summary>
+        /// <summary>no setting would help, or only one that makes a step more than eight times as dear; see the text</summary>
         None = 0,
         /// <summary>settings.substeps, or the rate in the same proportion</summary>
         Substeps = 1,
