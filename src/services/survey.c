@@ -151,6 +151,32 @@ static double cells_to_obstacle(const World *world, const Share *share, const do
     return fmin(ray_to_obstacle(world, share->slot, from, along, far * cell), ray_to_wall(world, from, along, far * cell)) / cell;
 }
 
+/* How far the surface of liquids is from level. Columns end where their last cell is filled to, if no obstacle is there: under a wall that leans they end below the surface. Thin ones may be spray. */
+static double measure_level(const World *world, Cells *cells, int axis, const double down[3])
+{
+    enum { COLUMN = 3, FREE = 2 };
+    const int up = down[axis] > 0.0 ? -1 : 1;
+    double sum = 0.0, square = 0.0, columns = 0.0, along[3] = {0};
+    uint32_t runs = 0, number = 0;
+    along[axis] = up;
+    sort_along(cells, axis, true);
+    for (uint32_t first = 0; first < cells->count; first += run_from(cells, first)) runs += cells->share[first].group == 0;
+    const uint32_t stride = 1 + runs / LOOKED_AT;
+    for (uint32_t first = 0, count; first < cells->count; first += count) {
+        const Share *run = &cells->share[first];
+        count = run_from(cells, first);
+        if (run->group != 0 || count < COLUMN || number++ % stride != 0) continue;
+        const Share *top = up > 0 ? &run[count - 1] : run;
+        double height = 0.0;
+        if (cells_to_obstacle(world, top, along, FREE) < INFINITY) continue;
+        for (int a = 0; a < cells->dimension; a++) height -= down[a] * (top->cell[a] - HALF + (a == axis ? up * (fmin(top->filling, 1.0) - 0.5) : 0.0));
+        columns += 1.0;
+        sum += height;
+        square += height * height;
+    }
+    return columns > 0.0 ? sqrt(fmax(0.0, square / columns - sum / columns * (sum / columns))) : 0.0;
+}
+
 /* Whether an obstacle stands closer than ROOM cells to an end of a run, which is known to half a cell. */
 static bool is_shut(const World *world, const Share *end, int axis, int way)
 {
@@ -824,6 +850,9 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     for (int a = 0; a < cells->dimension && floats; a++)
         if (a != down) measure_room(world, cells, a, narrow);
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, runs[a]);
+    double pull[3], uneven = 0.0;
+    gravity_direction(world, pull);
+    if (down >= 0) uneven = measure_level(world, cells, down, pull);
     measure_filling(cells, filling, error);
     if (world->step_count == 0) measure_overlaps(cells, overlapping);
     look_at_balls(world, cells, survey);
@@ -848,6 +877,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
         survey->heap[slot].width = INFINITY;
         for (int a = 0; a < cells->dimension; a++)
             if (a != down) survey->heap[slot].width = fmin(survey->heap[slot].width, runs[a][group]);
+        survey->heap[slot].uneven = group == 0 ? uneven : 0.0;
         survey->heap[slot].filling = filling[group];
         survey->heap[slot].filling_error = error[group];
         survey->heap[slot].overlapping = overlapping[group];

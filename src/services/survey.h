@@ -12,6 +12,7 @@ typedef struct Heap {
     double depth;      /* along the axis that gravity pulls along most; that of all liquids together for a liquid; 0 without gravity */
     double width;      /* the same across it, along the axis where that is least */
     double thickness;  /* the least over the axes, where it is thickest */
+    double uneven;     /* how far its surface is from level, root mean square over columns of three cells and more; of all liquids together; 0 for solids */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
     double filling_error; /* standard error of that mean */
     double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter; before the first step */
