@@ -827,14 +827,19 @@ static double fastest_meeting(const World *world, const Cells *cells)
     return fastest;
 }
 
+static bool any_liquid(const World *world)
+{
+    bool liquid = false;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) liquid = liquid || (world->materials.generation[slot] != 0 && world->materials.def[slot].kind == PBMPM_LIQUID);
+    return liquid;
+}
+
 /* Whether solids are there, and a liquid may come to them: else it is no matter how near walls are, and no sort is spent on it. */
 static bool may_float(const World *world, const Cells *cells)
 {
-    bool liquid = false, solid = false;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        liquid = liquid || (world->materials.generation[slot] != 0 && world->materials.def[slot].kind == PBMPM_LIQUID);
+    bool solid = false;
     for (uint32_t i = 0; i < cells->count && !solid; i++) solid = cells->share[i].group > 0;
-    return liquid && solid;
+    return solid && any_liquid(world);
 }
 
 /* A body is as thick as its thickest part, but for noise: what counts is a mean that leans that far to it. */
@@ -852,7 +857,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, runs[a]);
     double pull[3], uneven = 0.0;
     gravity_direction(world, pull);
-    if (down >= 0) uneven = measure_level(world, cells, down, pull);
+    if (down >= 0 && any_liquid(world)) uneven = measure_level(world, cells, down, pull);
     measure_filling(cells, filling, error);
     if (world->step_count == 0) measure_overlaps(cells, overlapping);
     look_at_balls(world, cells, survey);
