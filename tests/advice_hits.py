@@ -37,6 +37,7 @@ CODES = {
     "rolling": {"ROLLING_BRAKED", "MODULUS_NOT_HELD"},
     "contact": {"MODULUS_NOT_HELD", "BODY_TOO_THIN", "STRAIN_CLAMPED"},
     "bounce": {"BOUNCE_DAMPED", "MODULUS_NOT_HELD"},
+    "contact time": {"MODULUS_NOT_HELD"},
     "modulus": {"MODULUS_NOT_HELD", "NOT_SOLVED"},
     "afloat": {"BODY_TOO_THIN", "VOLUME_LOST", "POOL_TOO_DEEP"},
 }
@@ -70,7 +71,8 @@ SUBJECTS = (
     (r"^sand_in_water[^:]*: level", "volume"),
     (r"silo|sand|heap|^bin|^pile|^layer|^column|^poured|^falls|^hourglass|^funnel|^tilted_tray", "grains"),
     (r"^rolling", "rolling"),
-    (r"restitution|contact time", "bounce"),
+    (r"contact time", "contact time"),
+    (r"restitution", "bounce"),
     (r"\btip\b|modulus|stretch|strain", "modulus"),
     (r"share of the jelly|share below the level|^sinks|^in_a_narrow_glass|^rigid_box|lift over|place of the block|^wide_raft", "afloat"),
     (r"inside the jelly|below (a|the) floor|has left|behind the wall|pool's share", "leak"),

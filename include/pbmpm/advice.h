@@ -25,8 +25,8 @@ typedef enum pbmpm_advice_code {
                                             with the dual solver and beside liquid; else its mean strain. Crushed where it lands, too flat, or too fast through a hole: its
                                             speed there [cells per substep] */
     PBMPM_ADVICE_BODY_TOO_THIN = 8,    /**< a body is too thin for the grid. Figure: its thickness [cells] */
-    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< the time step damps what bounces, with the dual solver and where bodies hit each other. Figure: substeps that the contact of an equally thick
-                                            ball lasts (Hertz's theory) */
+    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< the time step damps what bounces: bodies of the dual solver, balls of the primal that fall on obstacles, and bodies that hit each other. Figure: substeps that
+                                            the contact of an equally thick ball lasts (Hertz's theory) */
     PBMPM_ADVICE_ROLLING_BRAKED = 10,  /**< a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle moves so fast that it skips past matter. Figure: its displacement in the next substep [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< matter passes or reaches through. Figure: its thickness [cells] */
@@ -48,7 +48,7 @@ typedef enum pbmpm_advice_code {
 
 /** What would help. */
 typedef enum pbmpm_change {
-    PBMPM_CHANGE_NONE = 0,       /**< no setting would help, or only one that costs more than halving the cell size; see the text */
+    PBMPM_CHANGE_NONE = 0,       /**< no setting would help, or only one that makes a step more than eight times as dear; see the text */
     PBMPM_CHANGE_SUBSTEPS = 1,   /**< settings.substeps, or the rate in the same proportion */
     PBMPM_CHANGE_ITERATIONS = 2, /**< settings.iterations */
     PBMPM_CHANGE_CELL_SIZE = 3,  /**< world_def.cell_size [m] */

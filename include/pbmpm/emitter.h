@@ -35,8 +35,8 @@ typedef enum pbmpm_emitter_region {
  *  that fall: so a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
  *  Places follow a sequence that fills the region evenly.
  *
- *  A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. It is refused, too, if it would
- *  fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. The same goes when the budget is spent or
+ *  A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. A particle of a solid is refused, too, where the matter around
+ *  is this full, whatever is empty beside it. For solids that are born too dense stay so. No particle may fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. The same goes when the budget is spent or
  *  the world has no room. Refused particles are not made up for. They are counted in pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep. */
 typedef struct pbmpm_emitter_def {
     uint32_t size;               /**< sizeof(pbmpm_emitter_def), set by pbmpm_emitter_def_init() */
@@ -44,8 +44,8 @@ typedef struct pbmpm_emitter_def {
     pbmpm_material_id material;  /**< of the particles; it cannot be destroyed while the emitter exists */
     pbmpm_emitter_region region; /**< default PBMPM_EMIT_VOLUME */
     int32_t enabled;             /**< 1 (default): emits; 0: rests, and no time passes for it */
-    float rate;                  /**< rest volume per second [m^3/s] (2D: m^2/s), in [0, 1e12]; default 0. A disc of the area A runs
-                                      full with A * speed. */
+    float rate;                  /**< volume per second, not particles: rest volume [m^3/s] (2D: area [m^2/s]), in [0, 1e12]; default 0. An emitter whose
+                                      cross-section along `direction` is A runs full with A * speed. Gravity and pressure may take more away. */
     float speed;                 /**< [m/s], in [0, 1e6]; default 0 */
     float direction[3];          /**< of the speed before the shape's rotation, any length > 1e-6; default (0, -1, 0) */
     float spread;                /**< largest angle between a particle's velocity and `direction` [rad], in [0, pi], evenly spread over

@@ -55,7 +55,7 @@ typedef struct pbmpm_force_def {
     uint32_t size;         /**< sizeof(pbmpm_force_def), set by pbmpm_force_def_init() */
     pbmpm_force_kind kind; /**< default PBMPM_FORCE_UNIFORM */
     int32_t enabled;       /**< 1 (default) or 0 */
-    int32_t everywhere;    /**< 1 (default): s = 1 everywhere, the shape only gives the centre. 0: s by shape and falloff. */
+    int32_t everywhere;    /**< 1 (default): s = 1 everywhere; of the shape only the centre counts. Set 0 for a force that ends at its shape: s by shape and falloff. */
     pbmpm_falloff falloff; /**< default PBMPM_FALLOFF_NONE */
     float range;           /**< of the falloff [m], in [0, 1e9], > 0 for INVERSE_SQUARE; default 0: nothing outside of the shape */
     float strength;        /**< acceleration [m/s^2], in [-1e9, 1e9]; DRAG: coefficient [1/s], in [0, 1e9]; GRAB: not used; default 1 */

@@ -84,7 +84,8 @@ typedef struct pbmpm_material_def {
     float yield_strain;         /**< visco: largest norm of the deviator of the logarithmic strain (ln of the stretches) that it bears, in
                                      [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain. */
     float flow_rate;            /**< visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a
-                                     Bingham fluid with the viscosity mu / flow_rate [Pa s]. */
+                                     Bingham fluid with the viscosity mu / flow_rate [Pa s], if flow_rate dt is far below 1. The default at 60 Hz has 1.7.
+                                     Then the rate decides, too. */
     uint64_t key;       /**< how snapshots find it again; no two materials of a world may share one. 0 (default): none; the index of its identifier counts,
                              see snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */

@@ -25,16 +25,6 @@ static bool floats(const World *world, const pbmpm_material_def *body)
     return false;
 }
 
-/* Whether a body moves as matter pushes it, see pbmpm_rigid_advance(). */
-static bool any_rigid(const World *world)
-{
-    for (uint32_t slot = 0; slot < world->colliders.used; slot++) {
-        const Collider *collider = &world->colliders.slot[slot];
-        if (collider->generation != 0 && collider->def.kinematic && collider->def.measures_impulse) return true;
-    }
-    return false;
-}
-
 /* A column runs out by 1.2 times its height over its width, in widths (G. Lube, H. Huppert, S. Sparks, M. Freundt, "Collapses of two-dimensional granular columns", Phys.
  * Rev. E 72, 2005); where it falls both ways, half its width counts. Far: by its width (tests/field/run.py column tilted_tray --settings 60x5,240x5: 0.06 of the
  * volume is lost with 1.2 widths, 0.03 with 0.6). */
@@ -47,13 +37,10 @@ static bool slides_far(const Heap *heap)
 
 static void limits_of_sand(Adviser *adviser, uint32_t slot)
 {
-    static const double ROCKS = 0.02; /* by trial: rigid_on_sand: at 60 Hz 0.11, at 120 Hz 0.027; at 240 Hz, 0.007, the crate rests */
     static const double FALLS = 4.0;  /* [cells] of hoppers over floors 9 to 70 cells below, with necks of 4 to 12 cells at 60, 120 and 240 Hz, heaps have 0.45 to 0.85 of their volume */
     const World *world = adviser->world;
     const Heap *heap = &adviser->survey.heap[slot];
-    const double substeps = world->settings.substeps, fall = gravity_fall(world, &adviser->substep) * substeps * substeps; /* in a step: a rigid body moves once in it */
     if (adviser_any_present(world, PBMPM_LIQUID)) tell_limit(adviser, slot, "sand in liquid does not settle: both move as one mixture, and go on stirring");
-    if (any_rigid(world) && fall > ROCKS) tell_limit(adviser, slot, "a rigid body on sand rocks and sinks in: more steps per second hold it better, substeps hardly do");
     if (heap->hole > 0.0 && heap->drop_most >= FALLS) tell_limit(adviser, slot, "sand that runs out of a hole is crushed by up to half where it heaps up, and swells for some seconds");
     if (heap->steep > STEEP) tell_limit(adviser, slot, "sand starts to slide up to eight degrees too steep");
     if (heap->steep > STEEP && slides_far(heap)) tell_limit(adviser, slot, "sand that slides far loses up to seven percent of its volume");

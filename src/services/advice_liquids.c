@@ -108,7 +108,12 @@ static double unseen_wave(const Adviser *adviser, uint32_t slot)
     return depth > 0.0 ? 0.5 * cell * sqrt(gravity_strength(adviser->world) / (2.0 * depth)) : 0.0;
 }
 
-/* A pool whose surface looks level, and that moves all the same. Those that come to rest are slower than CALM_SPEED 1 to 5 s after they were filled (tests/field/run.py still_pool trough). */
+/* A standing wave of a cell, which shows, is 2^(-1/2) cells from level when it turns, root mean square, and the ends of columns are known to a quarter of a cell. Pools that stir measure 0.1 to 0.52
+ * (tests/field/run.py still_pool furnished_pool creased_floor). */
+static const double LEVEL = 0.75; /* [cells] (1/2 + 1/16)^(1/2): see above */
+
+/* A pool whose surface is level, and that moves all the same. A wave is slow while it turns, and its surface is then farthest from level. Pools that stand at several levels are not told.
+ * Those that come to rest are slower than CALM_SPEED 1 to 5 s after they were filled (tests/field/run.py still_pool trough). */
 void advise_pool_moves(Adviser *adviser)
 {
     static const double SETTLES = 5.0; /* [s] see above */
@@ -117,6 +122,7 @@ void advise_pool_moves(Adviser *adviser)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && age >= SETTLES && !is_driven(world); slot++) {
         const double moves = adviser->survey.heap[slot].moves;
         if (!adviser_flows(&world->materials.def[slot]) || moves <= CALM_SPEED || moves >= unseen_wave(adviser, slot)) continue;
+        if (adviser->survey.heap[slot].uneven > LEVEL) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)moves, .bound = (float)CALM_SPEED, .came_true = 1,
                                .text = "the pool lies level, and its liquid moves on at this speed"};
         adviser_by_substeps(adviser, moves / CALM_SPEED, &advice); /* by RESTS, above */

@@ -40,6 +40,7 @@ void advise_modulus_not_held(Adviser *adviser);
 void advise_body_too_thin(Adviser *adviser);
 void advise_bounce_damped(Adviser *adviser);
 void advise_hit_damped(Adviser *adviser);
+void advise_ball_damped(Adviser *adviser);
 void advise_soft_bounce(Adviser *adviser);
 void advise_rolling_braked(Adviser *adviser);
 
@@ -52,6 +53,7 @@ void advise_no_friction(Adviser *adviser);
 
 /* advice_rigid.c: bodies that pbmpm_rigid_advance() moves */
 void advise_rigid_thrown_off(Adviser *adviser);
+void advise_rigid_on_sand(Adviser *adviser);
 void advise_rigid_glides(Adviser *adviser);
 void advise_rigid_enters(Adviser *adviser);
 

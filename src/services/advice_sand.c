@@ -44,12 +44,13 @@ static double landing(const Adviser *adviser, uint32_t slot, double drop)
     return sqrt(speed * speed + 2.0 * gravity_strength(world) * drop * cell) * adviser->substep.dt / cell;
 }
 
+static const double FALLS = 4.0;   /* cells: less may be between the pieces of what falls */
+static const double CRUSHED = 4.0; /* cells per substep: a block of 16 cells keeps 0.994 of its volume with 3.2, and 0.88 with 4.8 */
+
 /* What lands in one piece is stopped within a substep, and crushed by its way in it (tests/field/run.py falls --settings 60x5,90x5,120x5,240x5). So is a stream: of what an emitter 8 cells wide
  * brings nothing is lost with 2, 3 and 4 cells per substep, 0.15 with 5 and 0.28 with 6. */
 void advise_sand_lands(Adviser *adviser)
 {
-    static const double FALLS = 4.0; /* cells: less may be between the pieces of what falls */
-    static const double CRUSHED = 4.0; /* a block of 16 cells keeps 0.994 of its volume with 3.2, and 0.88 with 4.8 */
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double drop = adviser->survey.heap[slot].drop_half;
@@ -63,37 +64,43 @@ void advise_sand_lands(Adviser *adviser)
     }
 }
 
-/* The friction of a substep acts where its grains are at the start. What goes C cells in it is braked C cells too late, an error of the first order in C. A pile of 21 cells that
- * slides has C = 1.9 at 60 Hz and 0.5 at 240 Hz by the fall of its mean depth; with 25, 30 and 35 degrees it comes to rest flatter by 1.7, 1.9 and 2.6 degrees
- * per unit of C, at 60, 90, 120, 180 and 240 Hz (tests/field/run.py pile_slumps). One cell is a tenth of an angle of repose. */
+/* The friction of a substep acts where its grains are at the start: what goes C cells in it is braked C cells too late. Piles of 50 and 40 degrees and columns, which slide with C of 1.2 to 2.3 at 60 Hz by the fall
+ * of their mean depth, come to rest flatter than at 480 Hz by 0 to 5 degrees, half of it by 3 or more; at 120 Hz by 0 to 4.
+ * What lands is another matter. Blocks that fall by 5 to 40 cells on a floor, with 1.2 to 3.3 cells per substep, end flatter than at 480 Hz by 1.6 to 2.5 degrees. Heaps below funnels and emitters are as steep with 1.5 to 4.6 cells per substep as with fewer. Below a funnel they are flatter than at 240 Hz by 4 degrees with 4.9, by 11 with 5.3, by 5 with 6.1
+ * (tests/field/run.py pile_slumps column funnel heap): only what is crushed, see above, spreads. */
 void advise_sand_slides(Adviser *adviser)
 {
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const Heap *heap = &adviser->survey.heap[slot];
         if (!adviser_present(world, slot) || world->materials.def[slot].kind != PBMPM_SAND) continue;
-        const double drop = fmax(heap->drop_most, heap->steep > STEEP ? fmin(heap->slide, heap->depth) : 0.0);
-        const double cells = fmax(sqrt(2.0 * gravity_fall(world, &adviser->substep) * drop), adviser_emitted_landing(adviser, slot)); /* v^2 = 2 g h */
-        if (cells <= 1.0) continue;
-        pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = adviser_id_of(world, slot), .figure = (float)cells, .bound = 1.0f,
-                               .text = "sand that slides or lands at more than a cell per substep comes to rest too flat, by up to ten degrees"};
-        if (heap->hole == 0.0) adviser_by_substeps(adviser, cells, &advice); /* below a hole of four cells a heap of 30 degrees had 19 at 60 Hz, 11 with four substeps and at 240 Hz */
+        const double fall = 2.0 * gravity_fall(world, &adviser->substep); /* v^2 = 2 g h */
+        const double lands = sqrt(fall * heap->drop_most), slides = heap->steep > STEEP ? sqrt(fall * fmin(heap->slide, heap->depth)) : 0.0;
+        const bool crushed = lands > CRUSHED;
+        if (!crushed && slides <= 1.0) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = adviser_id_of(world, slot), .figure = (float)(crushed ? lands : slides), .bound = (float)(crushed ? CRUSHED : 1.0),
+                               .text = crushed ? "sand that lands at more than four cells per substep spreads: it comes to rest too flat, by up to ten degrees"
+                                               : "sand that slides at more than a cell per substep comes to rest too flat, by up to five degrees"};
+        if (heap->hole == 0.0 || !crushed) adviser_by_substeps(adviser, (double)advice.figure / (double)advice.bound, &advice); /* below a hole of four cells a heap of 30 degrees had 19 at 60 Hz, 11 with four substeps and at 240 Hz */
         adviser_give(adviser, advice);
     }
 }
 
-/* What runs out of a hole as wide as D goes by sqrt(g D) (W. Beverloo, H. Leniger, J. van de Velde, 1961), so by C cells per substep, and is braked too late, see above. Between boards that
- * lean by 50 degrees it runs 1.49, 1.55 times as fast as at 240 Hz with C = 1.3, 1.6, and 1.03, 1.13 times with 0.9, 0.7. Over a level floor it is uneven: 1.15, 1.12 times as fast later with
- * 1.9, 1.3, and 0.92, 1.05 times with 0.5, 0.3 (tests/field/run.py silo --settings 60x5,240x5). */
+/* What runs out of a hole as wide as D goes by sqrt(g D) (W. Beverloo, H. Leniger, J. van de Velde, 1961), so by C cells per substep, and is braked too late, see above. Where it rested above the hole it runs 0.9 to 1.15 times as
+ * fast as at 480 Hz with C of 1.1 to 2.3, and up to 1.35 times with 2.3 to 3.7: out of level floors and funnels of 50 degrees, which rub with 0.2 to 0.4. What falls in runs on: in hourglasses 1.3 times as fast with 1.0 and
+ * 1.3, 1.4 to 1.6 with 1.4 to 1.6, 1.75 with 2.0 and 2.5 with 2.6 (tests/field/run.py silo hourglass --settings 30x5,45x5,60x5,480x5). Half too fast is beyond the scatter of experiments, 0.8 to 1.45. */
 void advise_sand_runs(Adviser *adviser)
 {
+    static const double RESTED = 2.0, FELL = 1.5; /* cells per substep: see above */
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
-        const double cells = sqrt(gravity_fall(world, &adviser->substep) * adviser->survey.heap[slot].hole);
-        if (world->materials.def[slot].kind != PBMPM_SAND || cells <= 1.0) continue;
-        pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = adviser_id_of(world, slot), .figure = (float)cells, .bound = 1.0f,
-                               .text = "sand that runs out of a hole at more than a cell per substep runs unevenly, and up to 1.6 times too fast"};
-        adviser_by_substeps(adviser, cells, &advice);
+        const Heap *heap = &adviser->survey.heap[slot];
+        const double cells = sqrt(gravity_fall(world, &adviser->substep) * heap->hole), bound = heap->drop_half < FALLS ? RESTED : FELL;
+        if (world->materials.def[slot].kind != PBMPM_SAND || cells <= bound) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = adviser_id_of(world, slot), .figure = (float)cells, .bound = (float)bound,
+                               .text = bound == FELL ? "sand that falls in and runs out of a hole at more than 1.5 cells per substep runs half too fast, or more"
+                                                     : "sand that runs out of a hole at more than two cells per substep runs up to 1.4 times too fast"};
+        adviser_by_substeps(adviser, cells / bound, &advice);
         adviser_give(adviser, advice);
     }
 }

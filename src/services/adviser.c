@@ -25,10 +25,13 @@ static double iterated_share(const World *world)
     return record->ms_total > 0.0 ? record->ms_iterate / record->ms_total : ITERATED_SHARE;
 }
 
+/* Halving the cell size in 3D makes a step eight times as dear. Nobody takes what costs more: then no setting helps. */
+static const double MOST = 8.0; /* times a step */
+
 void adviser_by_substeps(const Adviser *adviser, double factor, pbmpm_advice *advice)
 {
     const double now = adviser->world->settings.substeps, wanted = ceil(now * factor - 1e-6);
-    if (wanted > PBMPM_MAX_SUBSTEPS) return;
+    if (wanted > PBMPM_MAX_SUBSTEPS || wanted > MOST * now) return;
     advice->change = PBMPM_CHANGE_SUBSTEPS;
     advice->value = (float)wanted;
     advice->price = (float)(100.0 * (wanted / now - 1.0));
@@ -36,17 +39,18 @@ void adviser_by_substeps(const Adviser *adviser, double factor, pbmpm_advice *ad
 
 void adviser_by_iterations(const Adviser *adviser, double factor, pbmpm_advice *advice)
 {
-    const double now = adviser->world->settings.iterations, wanted = fmin(ceil(now * factor - 1e-6), PBMPM_MAX_ITERATIONS);
+    const double now = adviser->world->settings.iterations, wanted = ceil(now * factor - 1e-6), more = iterated_share(adviser->world) * (wanted / now - 1.0);
+    if (wanted > PBMPM_MAX_ITERATIONS || more > MOST - 1.0) return;
     advice->change = PBMPM_CHANGE_ITERATIONS;
     advice->value = (float)wanted;
-    advice->price = (float)(100.0 * iterated_share(adviser->world) * (wanted / now - 1.0));
+    advice->price = (float)(100.0 * more);
 }
 
-/* As many particles per cell as before. What needs less than half the cell size costs more than eight times as much: then no setting helps. */
+/* As many particles per cell as before. */
 void adviser_by_cells(const Adviser *adviser, double factor, pbmpm_advice *advice)
 {
-    static const double MOST = 2.0; /* factor: see above */
-    if (factor > MOST) return;
+    static const double FINEST = 2.0; /* factor: see above */
+    if (factor > FINEST) return;
     advice->change = PBMPM_CHANGE_CELL_SIZE;
     advice->value = (float)((double)adviser->world->def.cell_size / factor);
     advice->price = (float)(100.0 * (pow(factor, adviser->world->def.dimension) - 1.0));

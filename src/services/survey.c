@@ -151,6 +151,32 @@ static double cells_to_obstacle(const World *world, const Share *share, const do
     return fmin(ray_to_obstacle(world, share->slot, from, along, far * cell), ray_to_wall(world, from, along, far * cell)) / cell;
 }
 
+/* How far the surface of liquids is from level. Columns end where their last cell is filled to, if no obstacle is there: under a wall that leans they end below the surface. Thin ones may be spray. */
+static double measure_level(const World *world, Cells *cells, int axis, const double down[3])
+{
+    enum { COLUMN = 3, FREE = 2 };
+    const int up = down[axis] > 0.0 ? -1 : 1;
+    double sum = 0.0, square = 0.0, columns = 0.0, along[3] = {0};
+    uint32_t runs = 0, number = 0;
+    along[axis] = up;
+    sort_along(cells, axis, true);
+    for (uint32_t first = 0; first < cells->count; first += run_from(cells, first)) runs += cells->share[first].group == 0;
+    const uint32_t stride = 1 + runs / LOOKED_AT;
+    for (uint32_t first = 0, count; first < cells->count; first += count) {
+        const Share *run = &cells->share[first];
+        count = run_from(cells, first);
+        if (run->group != 0 || count < COLUMN || number++ % stride != 0) continue;
+        const Share *top = up > 0 ? &run[count - 1] : run;
+        double height = 0.0;
+        if (cells_to_obstacle(world, top, along, FREE) < INFINITY) continue;
+        for (int a = 0; a < cells->dimension; a++) height -= down[a] * (top->cell[a] - HALF + (a == axis ? up * (fmin(top->filling, 1.0) - 0.5) : 0.0));
+        columns += 1.0;
+        sum += height;
+        square += height * height;
+    }
+    return columns > 0.0 ? sqrt(fmax(0.0, square / columns - sum / columns * (sum / columns))) : 0.0;
+}
+
 /* Whether an obstacle stands closer than ROOM cells to an end of a run, which is known to half a cell. */
 static bool is_shut(const World *world, const Share *end, int axis, int way)
 {
@@ -300,14 +326,13 @@ static void find_bodies(Cells *cells)
 
 /* ---- Falling, sliding ---- */
 
-static int axis_of_gravity(const World *world)
+int survey_axis_of_gravity(const World *world)
 {
     int axis = -1;
     for (int a = 0; a < world->def.dimension; a++)
         if (world->settings.gravity[a] != 0.0f && (axis < 0 || fabsf(world->settings.gravity[a]) > fabsf(world->settings.gravity[axis]))) axis = a;
     return axis;
 }
-
 
 /* Sorted by cell. */
 static bool any_of_group(const Cells *cells, const int32_t cell[3], uint32_t group)
@@ -401,12 +426,12 @@ static uint32_t count_far(const double *drop, uint32_t count)
 static void measure_drops(const World *world, Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
-    const uint32_t stride = stride_of(cells, slot);
     double drops[2 * LOOKED_AT], resting[2 * LOOKED_AT]; /* of all; and of what does not fall yet, where nothing below is infinitely far */
-    uint32_t number = 0, count = 0, rests = 0;
+    uint32_t number = 0, count = 0, rests = 0, ends = 0;
+    for (uint32_t i = 0; i < cells->count; i++) ends += cells->share[i].group == slot + 1 && is_end(cells, &cells->share[i], axis, way);
+    const uint32_t stride = 1 + ends / (2 * LOOKED_AT); /* of ends, not of cells: under deep matter they are few, and a hole is measured by them */
     for (uint32_t i = 0; i < cells->count && count < 2 * LOOKED_AT; i++) {
-        if (cells->share[i].group != slot + 1 || number++ % stride != 0) continue;
-        if (!is_end(cells, &cells->share[i], axis, way)) continue;
+        if (cells->share[i].group != slot + 1 || !is_end(cells, &cells->share[i], axis, way) || number++ % stride != 0) continue;
         const double drop = drop_of(world, cells, i, axis, &heap->on_matter);
         if (drop < 0.0) continue;
         drops[count++] = drop < INFINITY ? drop : 0.0;
@@ -697,7 +722,7 @@ static pbmpm_result look_at_bodies(World *world, Cells *cells, Survey *survey)
     if (!extent) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to look at %u bodies", cells->count);
     for (uint32_t i = 0; i < cells->count; i++) extent[i] = (Extent){0};
     measure_extents(world, cells, extent);
-    if (axis_of_gravity(world) >= 0) measure_levers(world, cells, axis_of_gravity(world), extent);
+    if (survey_axis_of_gravity(world) >= 0) measure_levers(world, cells, survey_axis_of_gravity(world), extent);
     double round[PBMPM_MAX_MATERIALS] = {0};
     for (uint32_t i = 0; i < cells->count; i++) {
         const Extent *of = &extent[i];
@@ -802,14 +827,19 @@ static double fastest_meeting(const World *world, const Cells *cells)
     return fastest;
 }
 
+static bool any_liquid(const World *world)
+{
+    bool liquid = false;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) liquid = liquid || (world->materials.generation[slot] != 0 && world->materials.def[slot].kind == PBMPM_LIQUID);
+    return liquid;
+}
+
 /* Whether solids are there, and a liquid may come to them: else it is no matter how near walls are, and no sort is spent on it. */
 static bool may_float(const World *world, const Cells *cells)
 {
-    bool liquid = false, solid = false;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        liquid = liquid || (world->materials.generation[slot] != 0 && world->materials.def[slot].kind == PBMPM_LIQUID);
+    bool solid = false;
     for (uint32_t i = 0; i < cells->count && !solid; i++) solid = cells->share[i].group > 0;
-    return liquid && solid;
+    return solid && any_liquid(world);
 }
 
 /* A body is as thick as its thickest part, but for noise: what counts is a mean that leans that far to it. */
@@ -819,12 +849,15 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
 {
     double runs[3][PBMPM_MAX_MATERIALS + 1], filling[PBMPM_MAX_MATERIALS + 1] = {0}, overlapping[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
     double weight[PBMPM_MAX_MATERIALS + 1] = {0}, narrow[PBMPM_MAX_MATERIALS + 1], error[PBMPM_MAX_MATERIALS + 1];
-    const int down = axis_of_gravity(world);
+    const int down = survey_axis_of_gravity(world);
     const bool floats = may_float(world, cells);
     for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) narrow[group] = floats ? 1.0 : 0.0;
     for (int a = 0; a < cells->dimension && floats; a++)
         if (a != down) measure_room(world, cells, a, narrow);
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, runs[a]);
+    double pull[3], uneven = 0.0;
+    gravity_direction(world, pull);
+    if (down >= 0 && any_liquid(world)) uneven = measure_level(world, cells, down, pull);
     measure_filling(cells, filling, error);
     if (world->step_count == 0) measure_overlaps(cells, overlapping);
     look_at_balls(world, cells, survey);
@@ -849,6 +882,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
         survey->heap[slot].width = INFINITY;
         for (int a = 0; a < cells->dimension; a++)
             if (a != down) survey->heap[slot].width = fmin(survey->heap[slot].width, runs[a][group]);
+        survey->heap[slot].uneven = group == 0 ? uneven : 0.0;
         survey->heap[slot].filling = filling[group];
         survey->heap[slot].filling_error = error[group];
         survey->heap[slot].overlapping = overlapping[group];

@@ -12,6 +12,7 @@ typedef struct Heap {
     double depth;      /* along the axis that gravity pulls along most; that of all liquids together for a liquid; 0 without gravity */
     double width;      /* the same across it, along the axis where that is least */
     double thickness;  /* the least over the axes, where it is thickest */
+    double uneven;     /* how far its surface is from level, root mean square over columns of three cells and more; of all liquids together; 0 for solids */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
     double filling_error; /* standard error of that mean */
     double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter; before the first step */
@@ -34,6 +35,9 @@ typedef struct Survey {
     bool ball_below; /* whether a ball or a capsule stands lower than liquid that nothing parts from it */
     bool ball_dry;   /* whether one of these is such that no liquid is within two cells of it */
 } Survey;
+
+/* Along which gravity pulls most; -1 without gravity. */
+int survey_axis_of_gravity(const World *world);
 
 /* Needs some bytes per particle, which it gives back. */
 pbmpm_result survey_make(World *world, Survey *survey);

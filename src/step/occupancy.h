@@ -38,6 +38,9 @@ void occupancy_add(Occupancy *occupancy, int dimension, const Spot *spot, double
 /* Rest volume per volume that obstacles leave open, of the nodes up to OCCUPANCY_WIDE away. Obstacles are looked at only if `walled`. */
 double occupancy_filling(const World *world, const Occupancy *occupancy, const double place[3], bool walled);
 
+/* How full the space is that matter takes around a place, whatever is empty beside it. */
+double occupancy_crowding(const Occupancy *occupancy, int dimension, const double place[3]);
+
 /* Rest volume per volume of the nodes that a particle there touches, obstacles or not. */
 double occupancy_density(const Occupancy *occupancy, int dimension, const Spot *spot);
 

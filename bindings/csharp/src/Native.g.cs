@@ -288,8 +288,8 @@ namespace Pbmpm
         SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
         BodyTooThin = 8,
-        /// <summary>the time step damps what bounces, with the dual solver and where bodies hit each other. Figure: substeps that the contact of an equally thick
-        /// ball lasts (Hertz's theory)</summary>
+        /// <summary>the time step damps what bounces: bodies of the dual solver, balls of the primal that fall on obstacles, and bodies that hit each other. Figure: substeps that
+        /// the contact of an equally thick ball lasts (Hertz's theory)</summary>
         BounceDamped = 9,
         /// <summary>a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells]</summary>
         RollingBraked = 10,
@@ -323,7 +323,7 @@ namespace Pbmpm
     /// <summary>What would help.</summary>
     public enum Change : int
     {
-        /// <summary>no setting would help, or only one that costs more than halving the cell size; see the text</summary>
+        /// <summary>no setting would help, or only one that makes a step more than eight times as dear; see the text</summary>
         None = 0,
         /// <summary>settings.substeps, or the rate in the same proportion</summary>
         Substeps = 1,
@@ -666,7 +666,8 @@ namespace Pbmpm
         /// [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain.</summary>
         public float YieldStrain;
         /// <summary>visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a
-        /// Bingham fluid with the viscosity mu / flow_rate [Pa s].</summary>
+        /// Bingham fluid with the viscosity mu / flow_rate [Pa s], if flow_rate dt is far below 1. The default at 60 Hz has 1.7.
+        /// Then the rate decides, too.</summary>
         public float FlowRate;
         /// <summary>how snapshots find it again; no two materials of a world may share one. 0 (default): none; the index of its identifier counts,
         /// see snapshot.h</summary>
@@ -1135,8 +1136,8 @@ namespace Pbmpm
     /// that fall: so a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
     /// Places follow a sequence that fills the region evenly.
     ///
-    /// A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. It is refused, too, if it would
-    /// fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. The same goes when the budget is spent or
+    /// A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. A particle of a solid is refused, too, where the matter around
+    /// is this full, whatever is empty beside it. For solids that are born too dense stay so. No particle may fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. The same goes when the budget is spent or
     /// the world has no room. Refused particles are not made up for. They are counted in pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct EmitterDef
@@ -1151,8 +1152,8 @@ namespace Pbmpm
         public EmitterRegion Region;
         /// <summary>1 (default): emits; 0: rests, and no time passes for it</summary>
         public int Enabled;
-        /// <summary>rest volume per second [m^3/s] (2D: m^2/s), in [0, 1e12]; default 0. A disc of the area A runs
-        /// full with A * speed.</summary>
+        /// <summary>volume per second, not particles: rest volume [m^3/s] (2D: area [m^2/s]), in [0, 1e12]; default 0. An emitter whose
+        /// cross-section along `direction` is A runs full with A * speed. Gravity and pressure may take more away.</summary>
         public float Rate;
         /// <summary>[m/s], in [0, 1e6]; default 0</summary>
         public float Speed;
@@ -1238,7 +1239,7 @@ namespace Pbmpm
         public ForceKind Kind;
         /// <summary>1 (default) or 0</summary>
         public int Enabled;
-        /// <summary>1 (default): s = 1 everywhere, the shape only gives the centre. 0: s by shape and falloff.</summary>
+        /// <summary>1 (default): s = 1 everywhere; of the shape only the centre counts. Set 0 for a force that ends at its shape: s by shape and falloff.</summary>
         public int Everywhere;
         /// <summary>default PBMPM_FALLOFF_NONE</summary>
         public Falloff Falloff;
