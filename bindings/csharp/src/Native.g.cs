@@ -1136,9 +1136,9 @@ namespace Pbmpm
     /// that fall: so a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
     /// Places follow a sequence that fills the region evenly.
     ///
-    /// A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. A particle of a solid is refused, too, where the matter around
-    /// is this full, whatever is empty beside it. For solids that are born too dense stay so. No particle may fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. The same goes when the budget is spent or
-    /// the world has no room. Refused particles are not made up for. They are counted in pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep.</summary>
+    /// A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. Solids that are born too dense stay so.
+    /// So solids are refused, too, where the matter around is this full, whatever is empty beside it. No particle may fill more than this share of a space
+    /// that obstacles enclose. That space is looked for up to about four cells from the emitter. A particle is refused, too, when the budget is spent or the world has no room. Refused particles are not made up for. They are counted in pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct EmitterDef
     {
