@@ -130,10 +130,6 @@ static int bodies_at(const Bodies *bodies, int32_t block, int32_t list[MOST_AROU
         for (int k = 0; k < count && is_new; k++) is_new = list[k] != body[other];
         if (is_new) list[count++] = body[other];
     }
-    for (int n = 0; count == 0; n++) { /* listed for cells at two of its sides, none of which is in both: its nodes stay empty */
-        const int32_t other = neighbours_of(grid, block)[n];
-        if (other >= 0 && other < grid->particle_blocks) list[count++] = body[other];
-    }
     return count;
 }
 

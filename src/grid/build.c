@@ -135,12 +135,12 @@ FoundBlock *grid_found(const Grid *grid, const int32_t place[3])
     return slot ? (FoundBlock *)grid->found.data + (slot - 1) : NULL;
 }
 
-/* Whether some of the cells lie at the lowest side of each axis where the offset is negative, and some at the highest where it is positive. */
+/* Whether one of the cells lies at the lowest side of each axis where the offset is negative, and at the highest where it is positive. */
 static bool touches(uint64_t cells, const int32_t offset[3])
 {
     for (int a = 0; a < 3; a++)
-        if (offset[a] != 0 && !(cells & block_cells_slice(a, offset[a] < 0 ? 0 : K_BLOCK_AXIS - 1))) return false;
-    return true;
+        if (offset[a] != 0) cells &= block_cells_slice(a, offset[a] < 0 ? 0 : K_BLOCK_AXIS - 1);
+    return cells != 0;
 }
 
 static bool find_touched_blocks(Grid *grid, Memory *memory)
