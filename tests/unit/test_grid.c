@@ -170,11 +170,13 @@ static void check_neighbours(const Grid *grid)
         }
 }
 
-/* Each of the 3^d nodes around each particle is in its block or in a neighbour that exists. */
+/* Each of the 3^d nodes around each particle is in its block or in a neighbour that exists, and each block has such a node. */
 static void check_touched_nodes_exist(const Sorted *s)
 {
     const Grid *grid = &s->grid;
     const uint32_t *block_begin = grid->block_begin.data;
+    static bool touched[27 * CAPACITY];
+    memset(touched, 0, sizeof touched);
     for (int32_t b = 0; b < grid->particle_blocks; b++)
         for (uint32_t row = block_begin[b]; row < block_begin[b + 1]; row++) {
             int32_t block[3], local[3];
@@ -187,8 +189,11 @@ static void check_touched_nodes_exist(const Sorted *s)
                     index = index * 3 + (node < 0 ? 0 : node >= K_BLOCK_AXIS ? 2 : 1);
                 }
                 if (neighbours_of(grid, b)[index] < 0) TEST_FAIL_MESSAGE("a node that a particle touches does not exist");
+                touched[neighbours_of(grid, b)[index]] = true;
             }
         }
+    for (int32_t b = 0; b < grid->node_blocks; b++)
+        if (!touched[b]) TEST_FAIL_MESSAGE("a block that no particle touches exists");
 }
 
 static uint64_t morton(const int32_t c[3])
