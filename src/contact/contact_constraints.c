@@ -281,7 +281,7 @@ void constraints_sum_push(const ContactFrame *frame, const float *u, const float
 
 /* The scales s_k that change what groups of contacts push, R_k, least and make the body's momentum change by what they push: the least
  * |sum s_k R_k - gained|^2 + NEAR sum |R_k|^2 (s_k - before_k)^2. Twice, so that what NEAR keeps back is its square. */
-static void find_scales(BodyFriction *body)
+void constraints_scale(BodyFriction *body)
 {
     static const double NEAR = 1e-3; /* weight of keeping the scales: less is singular where groups push alike, and each round leaves the square of it */
     const int n = body->groups;
@@ -311,11 +311,6 @@ static void find_scales(BodyFriction *body)
         }
     }
     for (int k = 0; k < n; k++) body->group[k].scale = fmin(fmax(body->group[k].scale, 0.0), SCALE_MAX);
-}
-
-void constraints_scale(BodyFriction *body, int32_t count)
-{
-    for (int32_t i = 0; i < count; i++) find_scales(&body[i]);
 }
 
 void constraints_set_limits(const ContactFrame *frame, int32_t block, const BodyFriction *body)

@@ -78,7 +78,7 @@ void constraints_pull(const ContactFrame *frame, const float *u, const double wa
 
 /* Sums what the active contacts of a block push, from a gradient without friction, and friction as it was; then scales, then new limits. */
 void constraints_sum_push(const ContactFrame *frame, const float *u, const float *gradient, float least, int32_t block, BodyFriction *body);
-void constraints_scale(BodyFriction *body, int32_t count);
+void constraints_scale(BodyFriction *body);
 void constraints_set_limits(const ContactFrame *frame, int32_t block, const BodyFriction *body);
 
 /* Whether a contact holds its node in all directions. */

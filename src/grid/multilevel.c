@@ -69,7 +69,17 @@ static bool add_block(Level *level, Memory *memory, const int32_t key[KEY])
     return true;
 }
 
-/* Lists the blocks over those of the finer level, and the next ones that its odd blocks reach into. False: no memory. */
+/* Whether hats cover the body of this block already: a block of the finer level, or two of a coarser one, the second what reaches over the first's end. */
+static bool is_covered(const Multilevel *m, const int32_t *key)
+{
+    const Range *of = (const Range *)m->range.data + key[BODY];
+    bool covered = true;
+    for (int a = 0; a < 3; a++) covered = covered && of->most[a] - of->least[a] < (m->levels > 1 ? 2 : 1);
+    return covered;
+}
+
+/* Lists the blocks over those of the finer level, and the next ones that its odd blocks reach into: none over bodies that are covered, so that what is elsewhere
+ * changes nothing. False: no memory. */
 static bool list_parents(Multilevel *m, Memory *memory, Level *level, const Level *finer)
 {
     const size_t most = (size_t)finer->blocks * (size_t)parents_of(m); /* all could be different ones */
@@ -78,9 +88,10 @@ static bool list_parents(Multilevel *m, Memory *memory, Level *level, const Leve
     level->blocks = 0;
     for (int32_t b = 0; b < finer->blocks; b++) {
         const int32_t *c = (const int32_t *)finer->coordinate.data + KEY * b;
+        const bool covered = is_covered(m, c);
         for (int n = 0; n < parents_of(m); n++) {
             int32_t up[KEY] = {[BODY] = c[BODY]};
-            bool reaches = true;
+            bool reaches = !covered;
             for (int a = 0; a < 3; a++) {
                 const int next = n >> a & 1;
                 reaches = reaches && !(next && (c[a] & 1) == 0);
@@ -115,36 +126,56 @@ static void list_children(const Multilevel *m, Level *level, const Level *finer)
     }
 }
 
-/* Over how many blocks of a level a body reaches along the longest axis; of all bodies the most. `range`: room for one per body. */
-static int32_t extent_of(const Level *level, int32_t bodies, Range *range)
+static void clear_ranges(Range *range, int32_t bodies)
 {
-    int32_t extent = 1;
     for (int32_t i = 0; i < bodies; i++) range[i] = (Range){{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
+}
+
+static void widen_range(Range *range, const int32_t *place, int axes)
+{
+    for (int a = 0; a < axes; a++) {
+        range->least[a] = place[a] < range->least[a] ? place[a] : range->least[a];
+        range->most[a] = place[a] > range->most[a] ? place[a] : range->most[a];
+    }
+}
+
+/* Finds where the bodies' blocks of a level are. False if all are covered. */
+static bool find_ranges(Multilevel *m, const Level *level, int32_t bodies)
+{
+    bool any = false;
+    clear_ranges(m->range.data, bodies);
     for (int32_t b = 0; b < level->blocks; b++) {
         const int32_t *key = (const int32_t *)level->coordinate.data + KEY * b;
-        Range *own = &range[key[BODY]];
-        for (int a = 0; a < 3; a++) {
-            own->least[a] = key[a] < own->least[a] ? key[a] : own->least[a];
-            own->most[a] = key[a] > own->most[a] ? key[a] : own->most[a];
-            extent = own->most[a] - own->least[a] >= extent ? own->most[a] - own->least[a] + 1 : extent;
-        }
+        widen_range((Range *)m->range.data + key[BODY], key, 3);
     }
-    return extent;
+    for (int32_t b = 0; b < level->blocks && !any; b++) any = !is_covered(m, (const int32_t *)level->coordinate.data + KEY * b);
+    return any;
 }
 
-static void key_of(const Grid *grid, int32_t block, int32_t shift, int32_t key[KEY])
+/* Where the particles of the bodies begin: there their hats do. */
+static bool find_origins(Multilevel *m, Memory *memory, const Grid *grid)
+{
+    if (!array_reserve(memory, &m->range, (size_t)grid->bodies, sizeof(Range)) || !array_reserve(memory, &m->origin, (size_t)grid->bodies, sizeof(Range))) return false;
+    clear_ranges(m->origin.data, grid->bodies);
+    for (int32_t b = 0; b < grid->particle_blocks; b++)
+        widen_range((Range *)m->origin.data + body_of_block(grid, b), (const int32_t *)grid->coordinate.data + 3 * b, grid->dimension);
+    return true;
+}
+
+static void key_of(const Multilevel *m, const Grid *grid, int32_t block, int32_t shift, int32_t key[KEY])
 {
     const int32_t *place = (const int32_t *)grid->coordinate.data + 3 * block;
-    for (int a = 0; a < 3; a++) key[a] = a < grid->dimension ? place[a] + shift : 0;
     key[BODY] = body_of_block(grid, block);
+    const Range *of = (const Range *)m->origin.data + key[BODY];
+    for (int a = 0; a < 3; a++) key[a] = a < grid->dimension ? place[a] - of->least[a] + shift : 0;
 }
 
-/* The finest level: the blocks of the grid, moved by `shift`. */
+/* The finest level: the blocks of the grid, moved by `shift` from where the particles begin. */
 static bool list_finest(Multilevel *m, Memory *memory, const Grid *grid, int32_t shift)
 {
     Level *level = &m->level[0];
     if (!array_reserve(memory, &level->coordinate, KEY * (size_t)grid->node_blocks, sizeof(int32_t))) return false;
-    for (int32_t b = 0; b < grid->node_blocks; b++) key_of(grid, b, shift, (int32_t *)level->coordinate.data + KEY * b);
+    for (int32_t b = 0; b < grid->node_blocks; b++) key_of(m, grid, b, shift, (int32_t *)level->coordinate.data + KEY * b);
     level->blocks = grid->node_blocks;
     return true;
 }
@@ -156,7 +187,7 @@ static bool is_built(const Multilevel *m, const Grid *grid, int width, int32_t s
     bool same = m->built && m->width == width && m->shift == shift && m->level[0].blocks == grid->node_blocks;
     for (int32_t b = 0; b < grid->node_blocks && same; b++) {
         int32_t key[KEY];
-        key_of(grid, b, shift, key);
+        key_of(m, grid, b, shift, key);
         same = memcmp(before + KEY * b, key, sizeof key) == 0;
     }
     return same;
@@ -166,8 +197,9 @@ bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width
 {
     enum { LEVELS_FAR_BEYOND = 8 }; /* hats of 256 blocks, a thousand cells: wider matter has a mean that these no longer see as one */
     const int most_levels = end == LEVELS_BEYOND ? LEVELS_FAR_BEYOND : MULTILEVEL_MAX;
-    /* The grid counts blocks from those with the lowest particles; the ones below have -1, and would have it on all levels. */
+    /* Blocks below those with the lowest particles have -1, and would have it on all levels. */
     const int32_t shift = end == LEVELS_BEYOND ? 0 : 1;
+    if (!find_origins(m, memory, grid)) return false;
     if (is_built(m, grid, width, shift)) return true;
     m->built = false;
     m->shift = shift;
@@ -175,11 +207,11 @@ bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width
     m->dimension = grid->dimension;
     m->block_cells = grid->block_cells;
     m->levels = 1;
-    if (!list_finest(m, memory, grid, shift) || !array_reserve(memory, &m->range, (size_t)grid->bodies, sizeof(Range))) return false;
+    if (!list_finest(m, memory, grid, shift)) return false;
     while (m->levels < most_levels) {
         const Level *finer = &m->level[m->levels - 1];
         Level *level = &m->level[m->levels];
-        if (extent_of(finer, grid->bodies, m->range.data) <= (m->levels > 1 ? 2 : 1)) break; /* 2: a block, and what reaches over its end */
+        if (!find_ranges(m, finer, grid->bodies)) break;
         if (!list_parents(m, memory, level, finer) || !reserve_level(m, memory, level)) return false;
         list_children(m, level, finer);
         m->levels++;
@@ -197,6 +229,7 @@ void multilevel_free(Multilevel *m, Memory *memory)
     }
     array_free(memory, &m->table);
     array_free(memory, &m->range);
+    array_free(memory, &m->origin);
     m->built = false;
 }
 
@@ -357,8 +390,10 @@ static inline void prolong_block(const TransferJob *job, int32_t block, int widt
 static void prolong_blocks(void *context, int32_t begin, int32_t end)
 {
     const TransferJob *job = context;
+    const int32_t *parent = job->level->parent.data;
     for (int32_t block = begin; block < end; block++) {
         scale_block(job, block);
+        if (parent[block * parents_of(job->m)] < 0) continue; /* its body has no coarser hats */
         if (job->width == 1)
             prolong_block(job, block, 1);
         else

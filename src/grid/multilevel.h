@@ -21,7 +21,7 @@ enum { MULTILEVEL_MAX = 20 };
 
 /* Where the levels end. What is best was found by trying both for both. */
 typedef enum LevelsEnd {
-    LEVELS_OVER_MATTER, /* with hats as wide as the matter: for elastic bodies */
+    LEVELS_OVER_MATTER, /* with hats as wide as each body: for elastic bodies */
     LEVELS_BEYOND       /* with hats many times wider, which nearly all correct the mean alone, first of all; on every level nodes lie at the lowest
                            particles: for pressures, whose mean is what a free surface holds weakest */
 } LevelsEnd;
@@ -41,7 +41,8 @@ typedef struct Multilevel {
     int levels;                   /* with the finest, whose vectors and inverse are the caller's */
     Level level[MULTILEVEL_MAX];
     Array table, range;           /* while levels are built: a hash table of blocks; where the blocks of each body lie */
-    int32_t shift;                /* of the finest level's blocks against the grid's */
+    Array origin;                 /* where the particles of each body begin */
+    int32_t shift;                /* of the finest level's blocks against that */
     bool built;                   /* the levels are complete; as long as the grid has the same blocks they stay */
 } Multilevel;
 

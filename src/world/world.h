@@ -145,6 +145,7 @@ typedef struct PrimalState {
     Array kept, among_liquid;  /* per particle couple and void_room of KernelArgs; the latter: see there, of islands of solids and liquid */
     Array sums;                /* what passes add up, per node block */
     Array body_sums;           /* per body */
+    Array searches;            /* per body, see primal_search.c */
     Array rigid, friction, moves;   /* per body, see primal_rigid.c, contact_constraints.h and primal_momentum.c */
     bool bounces;              /* a body of this substep, see primal_bounce.c */
     uint32_t yield_grips;      /* contacts with bodies that yield, see primal_yield.h */

@@ -14,6 +14,9 @@ BodySum *primal_body_of(const Primal *p, int32_t block)
     return (BodySum *)state->body_sums.data + body_of_block(&p->world->grid, block);
 }
 
+bool primal_has_failed(const Primal *p, int32_t body) { return ((const BodySum *)p->world->primal.body_sums.data)[body].failed; }
+bool primal_is_unsound(const Primal *p, int32_t body) { return ((const BodySum *)p->world->primal.body_sums.data)[body].unsound; }
+
 bool primal_is_multistep(const Primal *p, int32_t block)
 {
     const float *share = p->world->args.primal.block_share;
@@ -147,9 +150,10 @@ uint32_t primal_check_bodies(Primal *p)
         failed += body[i].failed;
     }
     for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++)
-        constraints_turn_aside(p->contacts, block, primal_body_of(p, block)->start);
+        if (primal_body_of(p, block)->failed) constraints_turn_aside(p->contacts, block, primal_body_of(p, block)->start);
     for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++) {
         BodySum *b = primal_body_of(p, block);
+        if (!b->failed) continue;
         const double share = constraints_free_share(p->contacts, block, b->start);
         for (int c = 0; c < 3; c++) b->start[c] *= share;
     }
@@ -182,7 +186,7 @@ void primal_pull_back_to(Primal *p, float share)
     primal_over_blocks(p, pull_back);
     primal_evaluate(p);
     p->world->record.iterations_used++;
-    primal_accept(p, false);
+    primal_accept(p, primal_has_failed);
 }
 
 double primal_own_motion(const BodySum *body)
@@ -228,8 +232,14 @@ static uint32_t find_failed(Primal *p)
 {
     RigidBody *rigid = p->world->primal.rigid.data;
     for (int32_t i = 0; i < p->world->grid.bodies; i++) rigid[i].kept = 1.0;
-    primal_keep_momentum(p);
+    primal_keep_momentum(p, primal_has_failed);
     return primal_check_bodies(p);
+}
+
+/* What failed goes on, without stop rules. */
+static void search_further(Primal *p)
+{
+    p->world->record.iterations_used += primal_search(p, (uint32_t)p->world->settings.iterations + 1, primal_has_failed, false);
 }
 
 /* True if no body is left that gained. */
@@ -237,9 +247,8 @@ static bool search_on(Primal *p)
 {
     memcpy(p->node, p->best, (size_t)p->world->grid.node_blocks * (size_t)p->floats * sizeof *p->node); /* bodies were moved since */
     primal_evaluate(p);
-    primal_accept(p, false);
-    primal_find_direction(p);
-    primal_descend_further(p); /* nearly there */
+    primal_accept(p, primal_has_failed);
+    search_further(p); /* nearly there */
     return find_failed(p) == 0;
 }
 
@@ -254,8 +263,7 @@ static void mend(Primal *p)
     if (let_pay(p) == 0) return;
     p->turned = true;
     primal_pull_back_to(p, 0.0f);
-    primal_find_direction(p);
-    primal_descend_further(p);
+    search_further(p);
     for (int halving = 0; find_failed(p) > 0 && let_pay(p) > 0; halving++) {
         p->turned = halving < 2;
         primal_pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
@@ -269,7 +277,7 @@ void primal_keep_energy(Primal *p)
     record->energy_checks_failed = primal_check_bodies(p);
     if (record->energy_checks_failed == 0) return;
     mend(p);
-    record->residual = sqrt(fmax(primal_find_plain_direction(p), 0.0) / p->mass);
+    record->residual = primal_plain_residual(p, primal_is_unsound);
     record->predicted_error = PRIMAL_ERROR_PER_RESIDUAL * record->residual;
 }
 

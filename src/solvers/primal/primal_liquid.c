@@ -153,6 +153,8 @@ static void stay(Primal *p, int32_t block, size_t begin, size_t end, double *sum
     if (primal_body_of(p, block)->rise > 0.0) memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof *p->node);
 }
 
+static bool holds_liquid(const Primal *p, int32_t body) { return ((const BodySum *)p->world->primal.body_sums.data)[body].with_liquid; }
+
 /* Nodes that fly all at once are a step of descent that may be too long: drops met behind a wall that was hit, and were crushed to 0.4 of their volume. Their energy came
  * back in the next substep. A body whose energy rises stays where the search led. */
 void primal_let_fly(Primal *p)
@@ -167,7 +169,7 @@ void primal_let_fly(Primal *p)
         primal_evaluate(p);
         p->world->record.iterations_used++;
     }
-    primal_accept(p, false);
+    primal_accept(p, holds_liquid);
 }
 
 /* The joint solver's liquids: what they gain is taken from their eddies, as the dual's. Particles keep their velocities. */

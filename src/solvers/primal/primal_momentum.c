@@ -118,11 +118,10 @@ static void lead_translation(Primal *p, int32_t block, size_t begin, size_t end,
 void primal_balance_momentum(Primal *p)
 {
     enum { EVALUATIONS = 3 }; /* one was enough in 1,406 of 1,408 substeps of quiet scenes; the others go to where the slope vanishes */
-    uint32_t passes = 0;
     primal_over_blocks(p, sum_pull);
     primal_gather_rigid(p, 4);
-    primal_over_blocks(p, lead_translation);
-    if (p->total[0] > 0.0) primal_descend(p, &passes, EVALUATIONS);
+    primal_over_searches(p, lead_translation);
+    primal_follow(p, EVALUATIONS);
 }
 
 /* ---- Rotations ---- */
@@ -130,7 +129,7 @@ void primal_balance_momentum(Primal *p)
 static bool is_turned(const Primal *p, int32_t block)
 {
     const RigidBody *body = primal_rigid_of(p, block);
-    return body->turns && body->multistep && !primal_body_of(p, block)->meets;
+    return body->turns && body->multistep && !primal_body_of(p, block)->meets && !move_of(p, block)->stays;
 }
 
 /* Products of x + u and x + u*, their torque, and sum m (x + u), about the body's centre. */
@@ -202,14 +201,20 @@ static void keep_rotations(Primal *p)
 
 /* ---- All others ---- */
 
-void primal_keep_momentum(Primal *p)
+void primal_keep_momentum(Primal *p, BodyTest *chosen)
 {
     enum { STEPS = 3 }; /* with its secant for a stiffness steps fall short, never too far: the rest waits for the next substep */
     const PrimalState *state = &p->world->primal;
     const BodySum *body = state->body_sums.data;
     BodyMove *move = state->moves.data;
     const double *sums = state->sums.data;
-    for (int32_t i = 0; i < p->world->grid.bodies; i++) move[i] = (BodyMove){.blocked = body[i].leans && body[i].with_liquid ? 3 : 0};
+    bool any = false;
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) {
+        const bool stays = chosen && !chosen(p, i);
+        move[i] = (BodyMove){.stays = stays, .blocked = stays || (body[i].leans && body[i].with_liquid) ? 3 : 0};
+        any = any || !stays;
+    }
+    if (!any) return;
     primal_over_blocks(p, sum_momentum_error);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodyMove *m = move_of(p, block);

@@ -47,6 +47,7 @@ typedef struct RigidBody {
     double sum[16], motion[RIGID_MODES], start[RIGID_MODES];
     double kept, mean[3];                      /* share of its velocities beside this mean displacement that it keeps */
     bool multistep;                            /* it was solved for by BDF2, whether or not it forgets its past */
+    bool shifts;                               /* the search for its start goes on */
     bool bounces;
     double bounce;                             /* see primal_bounce.c */
     double strain;                             /* energy at contacts, of `start` */
@@ -60,10 +61,35 @@ typedef struct RigidBody {
 typedef struct BodyMove {
     double mass, missing[3];  /* momentum */
     double longest;           /* way */
+    bool stays;
     int blocked;              /* how many directions it may not move along, and which */
     double normal[3][3];
     double way[3], pull[3], stiffness;
 } BodyMove;
+
+/* What a search does next; see primal_search.c. */
+typedef enum SearchPhase {
+    SEARCH_ENDED,
+    SEARCH_SPENT,   /* it accepted its last step, and its residual is not known */
+    SEARCH_SEEKS,   /* a direction */
+    SEARCH_TRIES,   /* a step along it */
+    SEARCH_ACCEPTS  /* that step */
+} SearchPhase;
+
+/* The search for the lowest energy of one body, or of those that rigid bodies join. */
+typedef struct Search {
+    int32_t own;           /* the body whose search it is: that of all it is joined with */
+    bool with_liquid;
+    SearchPhase phase;
+    int pairs, newest;     /* how many steps it remembers, and the place of the newest */
+    uint32_t passes, most; /* evaluations */
+    float share;           /* of the step that is tried */
+    double product[PRIMAL_MEMORY][PRIMAL_MEMORY];       /* change i . step j, for j >= i */
+    double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops; `first` begins as step . right of each pair */
+    double mass, energy, trial_energy, slope_before, slope_after;
+    double decrement;      /* gradient . direction */
+    double total[SUMS];    /* what the last pass added up */
+} Search;
 
 /* One substep. Vectors have W floats per node; the last is not used. */
 typedef struct Primal {
@@ -73,9 +99,9 @@ typedef struct Primal {
     float *node, *base, *force;             /* where the energy was evaluated, the predictor, the gradient there */
     float *best, *gradient;                 /* the accepted displacements and their gradient */
     float *right, *direction;               /* what is solved for: free part of the gradient; the next step, with opposite sign */
-    float *step[PRIMAL_MEMORY], *change[PRIMAL_MEMORY]; /* differences of displacements and gradients, newest first */
-    double product[PRIMAL_MEMORY][PRIMAL_MEMORY];       /* change i . step j, for j >= i */
-    int pairs;
+    float *step[PRIMAL_MEMORY], *change[PRIMAL_MEMORY]; /* differences of displacements and gradients: see primal_step_of() */
+    Search *search;                         /* per body */
+    Search *joined;                         /* that of what touches rigid bodies that yield; null: none does */
     bool rubs;      /* there is friction */
     float slip_min; /* see constraints_slip_min() */
     bool bounces; /* a body does */
@@ -84,13 +110,12 @@ typedef struct Primal {
     const struct YieldPair *pair; /* in passes of primal_yield_along.c and primal_yield_heaps.c */
     const float *after;           /* in one of primal_yield_book.c */
     bool rigid; /* a body's rigid motions are solved for */
-    double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
     bool mixed;                             /* of solids and liquid */
     bool joint, sketches;                   /* the dual solves too, see joint.h, and has not yet */
     bool as_sent;                            /* all obstacles go where the host sends them */
-    float share;                            /* of the step that is tried */
-    double mass, energy, trial_energy, slope_before, slope_after;
-    double total[SUMS];                     /* what the last pass added up */
+    float share;                            /* of the way from their start that failed bodies go */
+    double mass;
+    double total[SUMS];                     /* what the last pass over blocks added up */
 } Primal;
 
 /* Works on the floats [begin, end) of one block; adds up into sum[SUMS]. */
@@ -101,27 +126,55 @@ typedef void BlockPass(Primal *p, int32_t block, size_t begin, size_t end, doubl
 /* The sums of the blocks are added in order, to p->total, so they do not depend on the number of threads. */
 void primal_over_blocks(Primal *p, BlockPass *pass);
 
-/* Energy and gradient at p->node. */
+/* Adds a pass to loops that do more. */
+void primal_add_pass(Primal *p, Loops *loops, BlockPass *pass);
+
+/* ---- primal_search.c ---- */
+
+/* After primal_yield_open() and primal_find_leaning(). */
+void primal_open_searches(Primal *p);
+Search *primal_search_of(const Primal *p, int32_t block);
+
+/* Pair i of a search, the newest first. */
+float *primal_step_of(const Primal *p, const Search *search, int i);
+float *primal_change_of(const Primal *p, const Search *search, int i);
+
+/* As primal_over_blocks(), but adds up to the `total` of each search; the same for loops whose last one is a pass. */
+void primal_over_searches(Primal *p, BlockPass *pass);
+void primal_run_and_gather(Primal *p, Loops *loops);
+
+/* Energy and gradient at p->node; the first time, after loops. */
 void primal_evaluate(Primal *p);
+void primal_evaluate_first(Primal *p, Loops *loops);
 
-/* Makes p->node the accepted displacements. */
-void primal_accept(Primal *p, bool with_pair);
+/* A pass that finds what the preconditioner needs. */
+void primal_weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, double *sum);
 
-/* p->direction from p->right; p->first holds step . right of each pair. Returns gradient . direction. */
-double primal_find_direction(Primal *p);
+/* Chooses bodies. Those that rigid bodies join are chosen if one of them is. */
+typedef bool BodyTest(const Primal *p, int32_t body);
 
-/* The same without the pairs, from the gradient. */
-double primal_find_plain_direction(Primal *p);
+/* Makes p->node the accepted displacements of the chosen bodies, of all if the test is null, and forgets their pairs. */
+void primal_accept(Primal *p, BodyTest *chosen);
 
-/* Follows p->direction, with at most `most` evaluations. False if nothing was found. */
-bool primal_descend(Primal *p, uint32_t *passes, uint32_t most);
+/* Searches on for the chosen bodies, with at most `most` evaluations; if it stops, until they are close enough or the time is up. Returns how many evaluations there
+ * were. */
+uint32_t primal_search(Primal *p, uint32_t most, BodyTest *chosen, bool stops);
 
-/* Goes on along p->direction, without stop rules. */
-void primal_descend_further(Primal *p);
+/* Each search follows p->direction if it leads down by the sum of the last pass, with at most `most` evaluations. */
+void primal_follow(Primal *p, uint32_t most);
+
+/* The residual [cells] of all, after primal_find_residual(); and where those of the chosen bodies are found without pairs. */
+void primal_find_residual(Primal *p);
+double primal_residual(const Primal *p);
+double primal_plain_residual(Primal *p, BodyTest *chosen);
 
 /* ---- primal_bodies.c ---- */
 
 BodySum *primal_body_of(const Primal *p, int32_t block);
+
+/* Whether a body failed the last energy check; whether it failed the first. */
+bool primal_has_failed(const Primal *p, int32_t body);
+bool primal_is_unsound(const Primal *p, int32_t body);
 
 /* Whether the block is stepped by BDF2. */
 bool primal_is_multistep(const Primal *p, int32_t block);
@@ -242,7 +295,7 @@ void primal_widen_gaps(Primal *p);
 /* Moves bodies with liquid that lean on something as a whole, as far as their forces ask for it. Uses p->right and p->direction. */
 void primal_balance_momentum(Primal *p);
 
-/* Gives bodies the momentum that an unfinished solution kept from them, as far as they may move. */
-void primal_keep_momentum(Primal *p);
+/* Gives the chosen bodies, all if the test is null, the momentum that an unfinished solution kept from them, as far as they may move. */
+void primal_keep_momentum(Primal *p, BodyTest *chosen);
 
 #endif

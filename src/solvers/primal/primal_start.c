@@ -124,16 +124,19 @@ static void fit_bodies(Primal *p)
         primal_solve_modes(&body[i], body[i].start);
     }
     bool moves = p->rigid;
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) body[i].shifts = body[i].used;
     for (int round = 0; round < ROUNDS && moves; round++) {
         push_bodies(p);
         moves = false;
         for (int32_t i = 0; i < p->world->grid.bodies; i++) {
             double next[RIGID_MODES];
-            if (!body[i].used) continue;
+            if (!body[i].shifts) continue;
             primal_factorise(&body[i]);
             primal_solve_modes(&body[i], next);
-            for (int k = 0; k < RIGID_MODES; k++) moves = moves || fabs(next[k] - body[i].start[k]) > FOUND;
+            body[i].shifts = false;
+            for (int k = 0; k < RIGID_MODES; k++) body[i].shifts = body[i].shifts || fabs(next[k] - body[i].start[k]) > FOUND;
             memcpy(body[i].start, next, sizeof next);
+            moves = moves || body[i].shifts;
         }
     }
     push_bodies(p);
@@ -170,12 +173,18 @@ void primal_write_rigid(Primal *p, int32_t block, size_t begin, size_t end, floa
     }
 }
 
+/* After add_strain(). */
+static bool starts_rigidly(const Primal *p, int32_t body)
+{
+    const RigidBody *of = (const RigidBody *)p->world->primal.rigid.data + body;
+    return of->turns && of->sum[0] > 0.0;
+}
+
 static void start_rigidly(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    const RigidBody *body = primal_rigid_of(p, block);
     (void)sum;
     memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof *p->node);
-    if (!body->turns || !(body->sum[0] > 0.0)) return;
+    if (!starts_rigidly(p, body_of_block(&p->world->grid, block))) return;
     primal_write_rigid(p, block, begin, end, p->node);
     constraints_project(p->contacts, p->node, block, block + 1);
 }
@@ -194,16 +203,14 @@ static void add_strain(Primal *p)
 
 void primal_choose_start(Primal *p)
 {
-    const PrimalState *state = &p->world->primal;
-    const RigidBody *body = state->rigid.data;
     bool any = false;
     fit_bodies(p);
     primal_over_blocks(p, sum_start);
     primal_gather_rigid(p, 1);
     add_strain(p);
-    for (int32_t i = 0; i < p->world->grid.bodies; i++) any = any || (body[i].turns && body[i].sum[0] > 0.0);
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) any = any || starts_rigidly(p, i);
     if (!any) return;
     primal_over_blocks(p, start_rigidly);
     primal_evaluate(p);
-    primal_accept(p, false);
+    primal_accept(p, starts_rigidly);
 }

@@ -227,6 +227,15 @@ void primal_yield_open(Primal *p)
     for (uint32_t b = 0; p->yields && b < yield_list(p)->bodies; b++) find_aim(p, &yield_bodies(p)[b]);
 }
 
+Search *primal_yield_join(const Primal *p)
+{
+    const YieldGrip *grip = yield_grips(p);
+    if (!p->yields) return NULL;
+    const int32_t own = yield_matter(p, grip[0].block);
+    for (uint32_t g = 0; g < yield_list(p)->grips; g++) p->search[yield_matter(p, grip[g].block)].own = own;
+    return &p->search[own];
+}
+
 /* A contact's part in the next Newton step of a start. */
 static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
 {
@@ -275,12 +284,12 @@ void primal_yield_evaluate(Primal *p)
     if (!p->yields) return;
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
         for (int k = 0; k < WAYS; k++) body[b].force[k] = body[b].at[k] - body[b].aim[k];
-    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) p->trial_energy += 0.5 * product(body[b].force, body[b].force);
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) p->joined->trial_energy += 0.5 * product(body[b].force, body[b].force);
     take_friction(p, p->node, false);
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
         for (int k = 0; k < WAYS; k++) {
-            p->slope_before += body[b].gradient[k] * (body[b].at[k] - body[b].best[k]);
-            p->slope_after += body[b].force[k] * (body[b].at[k] - body[b].best[k]);
+            p->joined->slope_before += body[b].gradient[k] * (body[b].at[k] - body[b].best[k]);
+            p->joined->slope_after += body[b].force[k] * (body[b].at[k] - body[b].best[k]);
         }
 }
 
@@ -293,7 +302,7 @@ static void shift(double pairs[PRIMAL_MEMORY][WAYS], int to, int from)
 
 void primal_yield_keep_pair(Primal *p)
 {
-    for (uint32_t b = 0; p->yields && b < yield_list(p)->bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         YieldBody *body = &yield_bodies(p)[b];
         shift(body->step, 1, 0);
         shift(body->change, 1, 0);
@@ -301,15 +310,15 @@ void primal_yield_keep_pair(Primal *p)
             body->step[0][k] = body->at[k] - body->best[k];
             body->change[0][k] = body->force[k] - body->gradient[k];
         }
-        for (int i = 0; i < p->pairs; i++) p->total[i] += product(body->change[0], body->step[i]);
-        p->total[SUMS - 1] += product(body->step[0], body->step[0]);
-        p->total[SUMS - 2] += product(body->change[0], body->change[0]);
+        for (int i = 0; i < p->joined->pairs; i++) p->joined->total[i] += product(body->change[0], body->step[i]);
+        p->joined->total[SUMS - 1] += product(body->step[0], body->step[0]);
+        p->joined->total[SUMS - 2] += product(body->change[0], body->change[0]);
     }
 }
 
 void primal_yield_drop_pair(Primal *p)
 {
-    for (uint32_t b = 0; p->yields && b < yield_list(p)->bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         shift(yield_bodies(p)[b].step, 0, 1);
         shift(yield_bodies(p)[b].change, 0, 1);
     }
@@ -331,7 +340,7 @@ void primal_yield_accept(Primal *p)
         fold(p, first, own);
     }
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
-        for (int i = 0; i < p->pairs; i++) p->first[i] += product(body[b].step[i], body[b].right);
+        for (int i = 0; i < p->joined->pairs; i++) p->joined->first[i] += product(body[b].step[i], body[b].right);
 }
 
 /* ---- The direction ---- */
@@ -347,14 +356,14 @@ void primal_yield_add_changes(Primal *p)
     YieldBody *body = yield_bodies(p);
     if (!p->yields) return;
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
-        for (int i = 0; i < p->pairs; i++)
-            for (int k = 0; k < WAYS; k++) body[b].right[k] -= p->first[i] * body[b].change[i][k];
+        for (int i = 0; i < p->joined->pairs; i++)
+            for (int k = 0; k < WAYS; k++) body[b].right[k] -= p->joined->first[i] * body[b].change[i][k];
     for (uint32_t first = 0; first < yield_list(p)->grips; first = end_of_block(p, first)) {
         const size_t begin = (size_t)yield_grips(p)[first].block * (size_t)p->floats;
         float own[BLOCK_FLOATS];
         memcpy(own, p->right + begin, (size_t)p->floats * sizeof *own);
-        for (int i = 0; i < p->pairs; i++)
-            for (size_t j = 0; j < (size_t)p->floats; j++) own[j] -= (float)p->first[i] * p->change[i][begin + j];
+        for (int i = 0; i < p->joined->pairs; i++)
+            for (size_t j = 0; j < (size_t)p->floats; j++) own[j] -= (float)p->joined->first[i] * primal_change_of(p, p->joined, i)[begin + j];
         fold(p, first, own);
     }
 }
@@ -364,13 +373,13 @@ void primal_yield_find_direction(Primal *p)
     YieldBody *body = yield_bodies(p);
     double total[SUMS];
     if (!p->yields) return;
-    memcpy(total, p->total, sizeof total);
+    memcpy(total, p->joined->total, sizeof total);
     yield_weigh_along(p);
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++) memcpy(body[b].direction, body[b].right, sizeof body[b].direction);
     yield_fold_along(p);
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         yield_solve(&body[b], body[b].direction);
-        for (int i = 0; i < p->pairs; i++) total[i] += product(body[b].change[i], body[b].direction);
+        for (int i = 0; i < p->joined->pairs; i++) total[i] += product(body[b].change[i], body[b].direction);
     }
     yield_spread_along(p, total);
     for (uint32_t first = 0; first < yield_list(p)->grips; first = end_of_block(p, first)) {
@@ -378,9 +387,9 @@ void primal_yield_find_direction(Primal *p)
         float in[BLOCK_FLOATS];
         unfold(p, first, in);
         for (size_t j = 0; j < (size_t)p->floats; j++)
-            for (int i = 0; i < p->pairs; i++) total[i] += (double)p->change[i][begin + j] * (double)in[j];
+            for (int i = 0; i < p->joined->pairs; i++) total[i] += (double)primal_change_of(p, p->joined, i)[begin + j] * (double)in[j];
     }
-    memcpy(p->total, total, sizeof total);
+    memcpy(p->joined->total, total, sizeof total);
 }
 
 void primal_yield_add_steps(Primal *p)
@@ -388,9 +397,9 @@ void primal_yield_add_steps(Primal *p)
     if (!p->yields) return;
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         YieldBody *body = &yield_bodies(p)[b];
-        for (int i = 0; i < p->pairs; i++)
-            for (int k = 0; k < WAYS; k++) body->direction[k] += p->second[i] * body->step[i][k];
-        p->total[0] += product(body->gradient, body->direction);
+        for (int i = 0; i < p->joined->pairs; i++)
+            for (int k = 0; k < WAYS; k++) body->direction[k] += p->joined->second[i] * body->step[i][k];
+        p->joined->total[0] += product(body->gradient, body->direction);
     }
     for (uint32_t first = 0; first < yield_list(p)->grips; first = end_of_block(p, first)) {
         const size_t begin = (size_t)yield_grips(p)[first].block * (size_t)p->floats;
@@ -398,7 +407,7 @@ void primal_yield_add_steps(Primal *p)
         unfold(p, first, in);
         for (size_t j = 0; j < (size_t)p->floats; j++) {
             p->direction[begin + j] += in[j];
-            p->total[0] += (double)p->gradient[begin + j] * (double)in[j];
+            p->joined->total[0] += (double)p->gradient[begin + j] * (double)in[j];
         }
     }
 }
@@ -409,8 +418,9 @@ void primal_yield_try(Primal *p)
 {
     YieldBody *body = yield_bodies(p);
     if (!p->yields) return;
+    const double share = p->joined->phase == SEARCH_TRIES ? (double)p->joined->share : 0.0;
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
-        for (int k = 0; k < WAYS; k++) body[b].at[k] = body[b].best[k] - (double)p->share * body[b].direction[k];
+        for (int k = 0; k < WAYS; k++) body[b].at[k] = body[b].best[k] - share * body[b].direction[k];
     move_surfaces(p, false);
 }
 

@@ -20,7 +20,7 @@
  * by the share f (primal_yield_along.c), the preconditioner is T diag(B, D^-1) T'. D is what a way costs then. Thus what is light follows what is stiff: both its own weight and
  * the stiffness of what it presses are in D. Obeyed one step late, contacts of the stiffness k throw off what has k dt^2 / m > 4.
  *
- * L-BFGS, its pairs and Armijo's rule are those of primal.c, in the space of u and q. Where an unfinished solution ends: primal_yield_heaps.c, primal_yield_book.c. Without walls
+ * L-BFGS, its pairs and Armijo's rule are those of primal_search.c, in the space of u and q. Where an unfinished solution ends: primal_yield_heaps.c, primal_yield_book.c. Without walls
  * of liquid, which have a law of their own (wall_bodies.h). Not among sand: it rests and flows by turns, and the dual, which solves what flows, knows no q. */
 #ifndef PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_YIELD_H
 #define PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_YIELD_H
@@ -30,8 +30,11 @@
 /* Lists the bodies that yield and their contacts, once these are found. */
 pbmpm_result primal_yield_list(World *world, const ContactFrame *contacts);
 
-/* All below do nothing where no body yields. In the order of a solution: before the first evaluation; */
+/* Where no body yields they do nothing, or there is no p->joined, and nobody calls them. In the order of a solution: before the first evaluation; */
 void primal_yield_open(Primal *p);
+
+/* the search of all that these bodies touch, or null; */
+Search *primal_yield_join(const Primal *p);
 
 /* where bodies begin, at p->node that obeys no contacts yet; */
 void primal_yield_start(Primal *p);
@@ -39,22 +42,22 @@ void primal_yield_start(Primal *p);
 /* what an evaluation at p->node adds: energy and slopes; */
 void primal_yield_evaluate(Primal *p);
 
-/* what a pair adds to the products in p->total; then the newest pair may go again; */
+/* what a pair adds to the products in p->joined->total; then the newest pair may go again; */
 void primal_yield_keep_pair(Primal *p);
 void primal_yield_drop_pair(Primal *p);
 
-/* the place is accepted: what it adds to p->first; */
+/* the place is accepted: what it adds to p->joined->first; */
 void primal_yield_accept(Primal *p);
 
 /* a direction without pairs: from the gradient; */
 void primal_yield_begin_plain(Primal *p);
 
-/* a direction: before p->right changes by the pairs; after, its own part; what goes along in p->direction, and what that adds to p->total; all of it at last. */
+/* a direction: before p->right changes by the pairs; after, its own part; what goes along in p->direction, and what that adds to p->joined->total; all of it at last. */
 void primal_yield_add_changes(Primal *p);
 void primal_yield_find_direction(Primal *p);
 void primal_yield_add_steps(Primal *p);
 
-/* a step of the share p->share; back to what is accepted; */
+/* a step of the share p->joined->share, if that tries one; back to what is accepted; */
 void primal_yield_try(Primal *p);
 void primal_yield_return(Primal *p);
 

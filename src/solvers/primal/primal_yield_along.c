@@ -210,12 +210,12 @@ static void spread(Primal *p, int32_t block, size_t begin, size_t end, double *s
     constraints_remove_from(p->contacts, along, block);
     for (size_t i = begin; i < end; i++) {
         p->direction[i] += along[i - begin];
-        for (int k = 0; k < p->pairs; k++) sum[k] += (double)p->change[k][i] * (double)along[i - begin];
+        for (int k = 0; k < p->joined->pairs; k++) sum[k] += (double)primal_change_of(p, p->joined, k)[i] * (double)along[i - begin];
     }
 }
 
 void yield_spread_along(Primal *p, double total[SUMS])
 {
     primal_over_blocks(p, spread);
-    for (int k = 0; k < p->pairs; k++) total[k] += p->total[k];
+    for (int k = 0; k < p->joined->pairs; k++) total[k] += p->total[k];
 }
