@@ -470,14 +470,28 @@ static void precondition(Primal *p)
     primal_over_searches(p, add_rigid);
 }
 
+static void take_gradients(Primal *p)
+{
+    const size_t floats = (size_t)p->floats;
+    Search *search;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        if (primal_search_of(p, block)->plain) memcpy(p->right + (size_t)block * floats, p->gradient + (size_t)block * floats, floats * sizeof *p->right);
+    if (p->joined && p->joined->plain) primal_yield_begin_plain(p);
+    for (int32_t i = 0; (search = next_search(p, &i));) search->plain = false;
+}
+
 /* The directions of those that seek one: p->direction from p->right, and its product with the gradient. */
 static void find_directions(Primal *p)
 {
     Search *search;
     const bool joined = joined_is(p, SEARCH_SEEKS);
+    bool plain = false;
     if (!any_is(p, SEARCH_SEEKS)) return;
-    for (int32_t i = 0; (search = next_search(p, &i));)
+    for (int32_t i = 0; (search = next_search(p, &i));) {
+        plain = plain || search->plain;
         if (search->phase == SEARCH_SEEKS) find_first(search);
+    }
+    if (plain) take_gradients(p);
     if (p->rigid) primal_weigh_rigid(p);
     if (joined) primal_yield_add_changes(p);
     precondition(p);
@@ -491,14 +505,11 @@ static void find_directions(Primal *p)
 }
 
 /* The next direction is found without pairs, from the gradient. */
-static void begin_plain(Primal *p, Search *search)
+static void begin_plain(Search *search)
 {
-    const size_t floats = (size_t)p->floats;
     search->pairs = 0;
+    search->plain = true;
     search->phase = SEARCH_SEEKS;
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
-        if (primal_search_of(p, block) == search) memcpy(p->right + (size_t)block * floats, p->gradient + (size_t)block * floats, floats * sizeof *p->right);
-    if (search == p->joined) primal_yield_begin_plain(p);
 }
 
 double primal_residual(const Primal *p)
@@ -513,7 +524,7 @@ double primal_plain_residual(Primal *p, BodyTest *chosen)
 {
     choose(p, chosen, SEARCH_SEEKS);
     for (int32_t i = 0; i < p->world->grid.bodies; i++)
-        if (p->search[i].phase == SEARCH_SEEKS) begin_plain(p, &p->search[i]);
+        if (p->search[i].phase == SEARCH_SEEKS) begin_plain(&p->search[i]);
     find_directions(p);
     return primal_residual(p);
 }
@@ -554,7 +565,7 @@ static void give_up(Primal *p, Search *search)
 {
     if (search == p->joined) primal_yield_return(p);
     if (search->pairs > 0)
-        begin_plain(p, search);
+        begin_plain(search);
     else
         search->phase = SEARCH_ENDED;
 }
@@ -614,7 +625,7 @@ static void go_on(Primal *p, bool stops)
     Search *search;
     find_directions(p);
     for (int32_t i = 0; (search = next_search(p, &i));)
-        if (search->phase == SEARCH_SEEKS && search->decrement <= 0.0 && search->pairs > 0) begin_plain(p, search);
+        if (search->phase == SEARCH_SEEKS && search->decrement <= 0.0 && search->pairs > 0) begin_plain(search);
         else if (search->phase == SEARCH_SEEKS) start_along(search);
     find_directions(p);
     for (int32_t i = 0; (search = next_search(p, &i));) {

@@ -80,6 +80,7 @@ typedef enum SearchPhase {
 typedef struct Search {
     int32_t own;           /* the body whose search it is: that of all it is joined with */
     bool with_liquid;
+    bool plain;            /* its next direction begins from the gradient, without pairs */
     SearchPhase phase;
     int pairs, newest;     /* how many steps it remembers, and the place of the newest */
     uint32_t passes, most; /* evaluations */
