@@ -5,7 +5,7 @@
  *     dE/du_i = m_i (u_i - u*_i) + sum_p m_p w_ip T_p (x_i - x_p),   T = dphi/dD,
  *
  * u* the predictor and phi the energy of ispc/elastic.isph, over what contacts allow. Method: L-BFGS (D. Liu, J. Nocedal, "On the limited
- * memory BFGS method for large scale optimization", Math. Prog. 45, 1989) of projected displacements, on top of a multilevel
+ * memory BFGS method for large scale optimization", Math. Prog. 45, 1989) of projected displacements, body by body, on top of a multilevel
  * preconditioner. Steps are accepted by Armijo's rule, or by the slope where the difference of two energies is rounding (W. Hager,
  * H. Zhang, "A new conjugate gradient method with guaranteed descent", SIAM J. Optim. 16(1), 2005).
  *
