@@ -625,7 +625,7 @@ static void go_on(Primal *p, bool stops)
     Search *search;
     find_directions(p);
     for (int32_t i = 0; (search = next_search(p, &i));)
-        if (search->phase == SEARCH_SEEKS && search->decrement <= 0.0 && search->pairs > 0) begin_plain(search);
+        if (search->phase == SEARCH_SEEKS && !(search->decrement > 0.0) && search->pairs > 0) begin_plain(search);
         else if (search->phase == SEARCH_SEEKS) start_along(search);
     find_directions(p);
     for (int32_t i = 0; (search = next_search(p, &i));) {
@@ -649,6 +649,7 @@ uint32_t primal_search(Primal *p, uint32_t most, BodyTest *chosen, bool stops)
         try_all(p);
         passes++;
     }
+    if (joined_is(p, SEARCH_TRIES)) primal_yield_return(p); /* the time was up before its step was good */
     return passes;
 }
 

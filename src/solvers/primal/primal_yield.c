@@ -418,9 +418,9 @@ void primal_yield_try(Primal *p)
 {
     YieldBody *body = yield_bodies(p);
     if (!p->yields) return;
-    const double share = p->joined->phase == SEARCH_TRIES ? (double)p->joined->share : 0.0;
+    const bool tries = p->joined->phase == SEARCH_TRIES;
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
-        for (int k = 0; k < WAYS; k++) body[b].at[k] = body[b].best[k] - share * body[b].direction[k];
+        for (int k = 0; k < WAYS; k++) body[b].at[k] = tries ? body[b].best[k] - (double)p->joined->share * body[b].direction[k] : body[b].best[k];
     move_surfaces(p, false);
 }
 
