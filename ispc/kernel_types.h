@@ -193,6 +193,7 @@ struct KernelCells {
     K_PTR(float) mass; /* sum h l m */
     K_PTR(float) growth; /* what the mean of tr D is to become */
     K_PTR(float) solid_growth; /* share of it that solids ask for; null unless they take part in the guess */
+    K_PTR(float) second_order; /* what sand's strain does beyond its trace, see granular.isph; null without sand */
     K_PTR(float) softness; /* mean of 1 / (L J^2) */
     K_PTR(float) pressure;
     K_PTR(float) pressure_old;

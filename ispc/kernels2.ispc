@@ -60,6 +60,9 @@ export void cells_add2(uniform struct KernelArgs *uniform args, uniform int begi
 export void cells_trace2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     cells_trace_blocks(*args, begin, end);
 }
+export void second_order2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    second_order_blocks(*args, begin, end);
+}
 export void cells_update2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     cells_update_blocks(*args, begin, end);
 }

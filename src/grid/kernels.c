@@ -16,6 +16,7 @@
     DO(cells_carry, suffix)                                                                                             \
     DO(cells_add, suffix)                                                                                               \
     DO(cells_trace, suffix)                                                                                             \
+    DO(second_order, suffix)                                                                                            \
     DO(cells_update, suffix)                                                                                            \
     DO(respond_nodes, suffix)                                                                                           \
     DO(cells_respond, suffix)                                                                                           \

@@ -27,6 +27,7 @@ typedef struct Kernels {
     Kernel *cells_carry;   /* particle blocks: pressures that particles start the guess from, to nodes */
     Kernel *cells_add;     /* particle blocks: adds what the guess found; pressures to nodes */
     Kernel *cells_trace;   /* particle blocks: G2P, traces of D to cells */
+    Kernel *second_order;  /* particle blocks: G2P, what strain does beyond its trace to cells */
     Kernel *cells_update;  /* node blocks: proximal step of the cells */
     Kernel *respond_nodes; /* node blocks: displacement from pressures alone */
     Kernel *cells_respond; /* node blocks: means of the traces */

@@ -45,21 +45,24 @@ static double landing(const Adviser *adviser, uint32_t slot, double drop)
 }
 
 static const double FALLS = 4.0;   /* cells: less may be between the pieces of what falls */
-static const double CRUSHED = 4.0; /* cells per substep: a block of 16 cells keeps 0.994 of its volume with 3.2, and 0.88 with 4.8 */
+static const double CRUSHED = 5.0; /* cells per substep: a second later a block of 16 cells has 0.95 to 0.98 of its volume with 4.8, 0.91 with 6 and 0.80 with 8 */
+static const double POURED = 4.0;  /* the same of a stream: 0.3 s after an emitter 8 cells wide stopped 0.98 with 2, 0.95 with 3, 0.92 with 4, and 0.58 with 5 */
 
-/* What lands in one piece is stopped within a substep, and crushed by its way in it (tests/field/run.py falls --settings 60x5,90x5,120x5,240x5). So is a stream: of what an emitter 8 cells wide
- * brings nothing is lost with 2, 3 and 4 cells per substep, 0.15 with 5 and 0.28 with 6. */
+/* What lands is stopped within a substep, and crushed by its way in it (tests/granular_landing.py). */
 void advise_sand_lands(Adviser *adviser)
 {
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double drop = adviser->survey.heap[slot].drop_half;
         if (!adviser_present(world, slot) || world->materials.def[slot].kind != PBMPM_SAND) continue;
-        const double cells = fmax(drop < FALLS ? 0.0 : landing(adviser, slot, drop), adviser_emitted_landing(adviser, slot));
-        if (cells <= CRUSHED) continue;
-        pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = adviser_id_of(world, slot), .figure = (float)cells, .bound = (float)CRUSHED,
-                               .text = "sand that lands at more than four cells per substep is crushed there for a second or two"};
-        adviser_by_substeps(adviser, cells / CRUSHED, &advice);
+        const double falls = drop < FALLS ? 0.0 : landing(adviser, slot, drop), poured = adviser_emitted_landing(adviser, slot);
+        const bool stream = poured / POURED > falls / CRUSHED;
+        const double cells = stream ? poured : falls, bound = stream ? POURED : CRUSHED;
+        if (cells <= bound) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = adviser_id_of(world, slot), .figure = (float)cells, .bound = (float)bound,
+                               .text = stream ? "sand that is poured at more than four cells per substep is crushed where it lands, for a second or two"
+                                              : "sand that lands at more than five cells per substep is crushed there for a second or two"};
+        adviser_by_substeps(adviser, cells / bound, &advice);
         adviser_give(adviser, advice);
     }
 }
@@ -79,27 +82,27 @@ void advise_sand_slides(Adviser *adviser)
         const bool crushed = lands > CRUSHED;
         if (!crushed && slides <= 1.0) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = adviser_id_of(world, slot), .figure = (float)(crushed ? lands : slides), .bound = (float)(crushed ? CRUSHED : 1.0),
-                               .text = crushed ? "sand that lands at more than four cells per substep spreads: it comes to rest too flat, by up to ten degrees"
+                               .text = crushed ? "sand that lands at more than five cells per substep spreads: it comes to rest too flat, by up to ten degrees"
                                                : "sand that slides at more than a cell per substep comes to rest too flat, by up to five degrees"};
         if (heap->hole == 0.0 || !crushed) adviser_by_substeps(adviser, (double)advice.figure / (double)advice.bound, &advice); /* below a hole of four cells a heap of 30 degrees had 19 at 60 Hz, 11 with four substeps and at 240 Hz */
         adviser_give(adviser, advice);
     }
 }
 
-/* What runs out of a hole as wide as D goes by sqrt(g D) (W. Beverloo, H. Leniger, J. van de Velde, 1961), so by C cells per substep, and is braked too late, see above. Where it rested above the hole it runs 0.9 to 1.15 times as
- * fast as at 480 Hz with C of 1.1 to 2.3, and up to 1.35 times with 2.3 to 3.7: out of level floors and funnels of 50 degrees, which rub with 0.2 to 0.4. What falls in runs on: in hourglasses 1.3 times as fast with 1.0 and
- * 1.3, 1.4 to 1.6 with 1.4 to 1.6, 1.75 with 2.0 and 2.5 with 2.6 (tests/field/run.py silo hourglass --settings 30x5,45x5,60x5,480x5). Half too fast is beyond the scatter of experiments, 0.8 to 1.45. */
+/* What runs out of a hole as wide as D goes by sqrt(g D) (W. Beverloo, H. Leniger, J. van de Velde, 1961), so by C cells per substep. Where it rested above the hole it runs 0.80 to 0.90 times as
+ * fast as at 480 Hz with C of 1.3 to 1.9, and 0.63 to 0.88 times with 2.1 to 3.7: out of level floors and funnels of 45 degrees, which rub with 0.4. What falls in runs on: in hourglasses 0.95 to 1.05 times as
+ * fast with C up to 1.8, 1.2 to 1.3 times with 1.9 to 2.6, and 2 to 3.3 times with 2.8 to 4 (tests/field/run.py silo hourglass --settings 20x5,30x5,45x5,60x5,480x5). */
 void advise_sand_runs(Adviser *adviser)
 {
-    static const double RESTED = 2.0, FELL = 1.5; /* cells per substep: see above */
+    static const double RESTED = 2.0, FELL = 2.7; /* cells per substep: see above */
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const Heap *heap = &adviser->survey.heap[slot];
         const double cells = sqrt(gravity_fall(world, &adviser->substep) * heap->hole), bound = heap->drop_half < FALLS ? RESTED : FELL;
         if (world->materials.def[slot].kind != PBMPM_SAND || cells <= bound) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = adviser_id_of(world, slot), .figure = (float)cells, .bound = (float)bound,
-                               .text = bound == FELL ? "sand that falls in and runs out of a hole at more than 1.5 cells per substep runs half too fast, or more"
-                                                     : "sand that runs out of a hole at more than two cells per substep runs up to 1.4 times too fast"};
+                               .text = bound == FELL ? "sand that falls in and runs out of a hole at more than 2.7 cells per substep runs twice too fast, or more"
+                                                     : "sand that runs out of a hole at more than two cells per substep runs too slowly, by up to a third"};
         adviser_by_substeps(adviser, cells / bound, &advice);
         adviser_give(adviser, advice);
     }

@@ -98,7 +98,7 @@ typedef struct Granular {
 
 /* What the dual solver keeps. */
 typedef struct DualState {
-    Array node_push, change2, uphill, cells, cell_solid_growth, cell_change2, cell_uphill; /* see KernelArgs */
+    Array node_push, change2, uphill, cells, cell_solid_growth, cell_second_order, cell_change2, cell_uphill; /* see KernelArgs */
     Array kept, moved2; /* displacements and, per node block, what they changed; see dual_error.h */
     Array bounds; /* see granular_bound.c */
     RoundsState rounds;

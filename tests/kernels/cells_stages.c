@@ -7,15 +7,20 @@
 #include "check.h"
 #include "solvers/dual/dual.h"
 #include "dual_stages.h"
+#include "matrices.h"
 
 enum { CENTRE_ROUNDINGS = 14 }; /* a weight: 3 differences, 3 products; with mass, lightness, J and the multiplier 8 more */
 
 static size_t node_count(const RefGrid *grid) { return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2]; }
 
 /* Whose particles a sum is over. */
-typedef enum Whose { LIQUIDS, SOLIDS, ALL } Whose;
+typedef enum Whose { LIQUIDS, SOLIDS, SAND, ALL } Whose;
 
-static bool counts(Whose whose, const RefParticle *p) { return whose == ALL || (whose == LIQUIDS) == (p->material.kind == K_LIQUID); }
+static bool counts(Whose whose, const RefParticle *p)
+{
+    if (whose == SAND) return p->material.yields == K_SAND;
+    return whose == ALL || (whose == LIQUIDS) == (p->material.kind == K_LIQUID);
+}
 
 /* Sums over particles of h m times up to four quantities, and how many they are. */
 typedef struct CellSum {
@@ -327,15 +332,15 @@ static void trace_of(const DualStage *stage, uint32_t row, const RefParticle *p,
     value[1] = lightness_of(p) * nodes_now->dimension * bound_gather(nodes_now, p).D;
 }
 
-/* Sums of h m tr D, of the displacements `nodes`. */
-static void check_traces(DualStage *stage, Whose whose, const RefGrid *nodes)
+/* Sums of h m of a quantity, of the displacements `nodes`. value[1] is its error. */
+static void check_means(DualStage *stage, Whose whose, Quantities *quantities, const RefGrid *nodes)
 {
     RefGrid sizes, sum = scene_scalar_tiles(&stage->scene, &sizes);
     nodes_now = nodes;
-    CellSum *expected = sum_cells(stage, whose, trace_of, &sum);
+    CellSum *expected = sum_cells(stage, whose, quantities, &sum);
     for (size_t i = 0; i < node_count(&sum); i++) {
         const double rounded = (CENTRE_ROUNDINGS + expected[i].terms) * UNIT_ROUNDOFF * expected[i].size[0];
-        check_near(expected[i].value[0], sum.node[i].mass, expected[i].value[1] + rounded + FLUSHED, "trace of a cell", (long)i);
+        check_near(expected[i].value[0], sum.node[i].mass, expected[i].value[1] + rounded + FLUSHED, "mean of a cell", (long)i);
     }
     free(expected);
     reference_grid_free(&sum);
@@ -347,7 +352,7 @@ void cells_check_trace(DualStage *stage)
 {
     RefGrid nodes = scene_nodes(&stage->scene);
     dual_check_multipliers(stage, stage->scene.kernels->cells_trace, false);
-    check_traces(stage, LIQUIDS, &nodes);
+    check_means(stage, LIQUIDS, trace_of, &nodes);
     reference_grid_free(&nodes);
 }
 
@@ -359,7 +364,33 @@ void cells_check_guess_trace(DualStage *stage)
     scene->world->args.cells.probing = 1;
     scene_run_particles(scene, scene->kernels->cells_trace);
     scene->world->args.cells.probing = 0;
-    check_traces(stage, ALL, &nodes);
+    check_means(stage, ALL, trace_of, &nodes);
+    reference_grid_free(&nodes);
+}
+
+/* l (det (I + S) - 1 - tr S), S = sym D, within the bound of growth. Entries that are off by e move each of its products: the derivative of det is a cofactor, of a norm of
+ * at most (1 + |S|)^(n-1). */
+static void second_order_of(const DualStage *stage, uint32_t row, const RefParticle *p, double value[4])
+{
+    const int n = nodes_now->dimension;
+    const double most = (double)stage->scene.world->args.dual.growth_max;
+    double d[3], D[9], S[9];
+    (void)row;
+    reference_gather(nodes_now, p, d, D);
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) S[r * 3 + c] = 0.5 * (D[r * 3 + c] + D[c * 3 + r]) + (r == c ? 1.0 : 0.0);
+    const double beyond = matrix_determinant(n, S) - 1.0 - matrix_trace(n, D), reach = pow(1.0 + matrix_norm(n, D), n - 1);
+    const double error = bound_gather(nodes_now, p).D * n * (reach + 1.0) + 16.0 * UNIT_ROUNDOFF * matrix_norm(n, D) * reach;
+    value[0] = lightness_of(p) * fmax(-most, fmin(most, beyond));
+    value[1] = lightness_of(p) * error;
+}
+
+void cells_check_second_order(DualStage *stage)
+{
+    Scene *scene = &stage->scene;
+    RefGrid nodes = scene_nodes(scene);
+    scene_run_particles(scene, scene->kernels->second_order);
+    check_means(stage, SAND, second_order_of, &nodes);
     reference_grid_free(&nodes);
 }
 

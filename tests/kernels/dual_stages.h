@@ -54,6 +54,7 @@ void cells_check_carry(DualStage *stage, float fine);
 void cells_check_add(DualStage *stage, Random *random);
 void cells_check_trace(DualStage *stage);
 void cells_check_guess_trace(DualStage *stage);
+void cells_check_second_order(DualStage *stage);
 void cells_check_update(DualStage *stage);
 
 /* Node displacements after a push: the predictor and the scatter of all extrapolated multipliers, with nothing kept in between. */

@@ -19,7 +19,8 @@
     FIELD(dual.grains_carried) FIELD(dual.crushed_carried) FIELD(dual.growth_max) FIELD(primal.node_force)                    \
     FIELD(primal.block_share) FIELD(primal.block_energy) FIELD(primal.couple) FIELD(primal.among_liquid)                      \
     FIELD(primal.void_room) FIELD(primal.fed) FIELD(primal.held_pressure) FIELD(primal.sketch) FIELD(primal.node_gap) FIELD(primal.may_feed)          \
-    FIELD(primal.held_stiffness) FIELD(cells.mass) FIELD(cells.growth) FIELD(cells.solid_growth) FIELD(cells.softness)              \
+    FIELD(primal.held_stiffness) FIELD(cells.mass) FIELD(cells.growth) FIELD(cells.solid_growth)                             \
+    FIELD(cells.second_order) FIELD(cells.softness)                                                                           \
     FIELD(cells.pressure) FIELD(cells.pressure_old) FIELD(cells.trace) FIELD(cells.change2) FIELD(cells.uphill)               \
     FIELD(cells.settle) FIELD(cells.elastic_guesses) FIELD(cells.probing) FIELD(cells.relaxation) FIELD(material)             \
     FIELD(iterations) FIELD(flip) FIELD(feedback_way) FIELD(quiet_way) FIELD(dt) FIELD(cells_per_metre) FIELD(gravity)        \

@@ -65,6 +65,7 @@ static void check_guess(DualStage *stage)
     cells_check_push(stage);
     push_nodes(stage);
     cells_check_guess_trace(stage);
+    cells_check_second_order(stage);
 }
 
 /* Before and after the guess of pressures that particles keep. */

@@ -45,8 +45,9 @@ static double trace_of(const World *world, uint32_t row)
 static double growth_of(const World *world, uint32_t row, bool grain)
 {
     const KernelArgs *a = &world->args;
-    const double missing = 1.0 / fmax((double)world->particles.volume_ratio[row], (double)K_LIQUID_RATIO_MIN) - 1.0, asked = fmax(0.0, fmin(missing, (double)a->dual.growth_max));
-    return grain ? fmax(0.0, trace_of(world, row)) * (double)a->cells.settle * asked : world->particles.dimension * (double)a->dual.pressure[row] * asked;
+    const double missing = 1.0 / fmax((double)world->particles.volume_ratio[row], (double)K_LIQUID_RATIO_MIN) - 1.0;
+    const double asked = fmax(0.0, fmin(grain ? (double)a->cells.settle * missing : missing, (double)a->dual.growth_max));
+    return asked * (grain ? fmax(0.0, trace_of(world, row)) : world->particles.dimension * (double)a->dual.pressure[row]);
 }
 
 static bool stores_energy(const KernelMaterial *material) { return material->kind == K_LIQUID ? material->inverse_stiffness > 0.0f : material->yields != K_SAND; }

@@ -304,7 +304,8 @@ static float growth_of(const KernelArgs *a, GuessAsked asked, size_t cell)
 {
     const float missing = a->cells.growth[cell];
     const float fallen = sqrtf(asked.fallen2 * missing), most = fallen < GUESS_GROWTH_MAX ? fallen : GUESS_GROWTH_MAX, share = asked.share * missing;
-    return (share < most ? share : most) + (a->cells.solid_growth ? a->cells.solid_growth[cell] : 0.0f);
+    const float solid = a->cells.solid_growth ? a->cells.solid_growth[cell] : 0.0f, second = a->cells.second_order ? a->cells.second_order[cell] : 0.0f;
+    return (share < most ? share : most) + solid - second;
 }
 
 static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)
