@@ -21,8 +21,8 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_POOL_STIRS = 5,       /**< a pool does not come to rest. Foreseen with the dual solver: figure the rms speed [m/s] that such pools have, within a factor of three.
                                             Or came true: liquid alone that nothing drives moves so five seconds after its first step. A wave of half a cell is faster */
     PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
-    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed, comes to rest too flat or runs too fast; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
-                                            with the dual solver and beside liquid; else its mean strain. Crushed where it lands, too flat, or too fast through a hole: its
+    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed, comes to rest too flat, or runs too fast or too slowly; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
+                                            with the dual solver and beside liquid; else its mean strain. Crushed where it lands, too flat, or running through a hole: its
                                             speed there [cells per substep] */
     PBMPM_ADVICE_BODY_TOO_THIN = 8,    /**< a body is too thin for the grid. Figure: its thickness [cells] */
     PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< the time step damps what bounces: bodies of the dual solver, balls of the primal that fall on obstacles, and bodies that hit each other. Figure: substeps that

@@ -46,7 +46,7 @@ static double landing(const Adviser *adviser, uint32_t slot, double drop)
 
 static const double FALLS = 4.0;   /* cells: less may be between the pieces of what falls */
 static const double CRUSHED = 5.0; /* cells per substep: a second later a block of 16 cells has 0.95 to 0.98 of its volume with 4.8, 0.91 with 6 and 0.80 with 8 */
-static const double POURED = 4.0;  /* the same of a stream: 0.3 s after an emitter 8 cells wide stopped 0.98 with 2, 0.95 with 3, 0.92 with 4, and 0.58 with 5 */
+static const double POURED = 4.0;  /* the same of a stream: 0.3 s after the last of it 0.98 with 2, 0.96 with 3, 0.94 with 4, and 0.60 with 5 */
 
 /* What lands is stopped within a substep, and crushed by its way in it (tests/granular_landing.py). */
 void advise_sand_lands(Adviser *adviser)

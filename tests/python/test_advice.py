@@ -176,7 +176,7 @@ def test_a_run_asks_once_before_its_first_step(monkeypatch: pytest.MonkeyPatch, 
 def test_the_command_tells_of_what_has_passed(tmp_path: Path) -> None:
     """Sand that falls far is crushed where it lands, and has most of its volume back in the end."""
     sand = {"shape": {"kind": "box", "position": [0.3, 0.7], "half_extents": [0.2, 0.1]}, "material": "sand"}
-    scene = {**SCENE, "cell_size": 0.0125, "domain": {"min": [0, 0], "max": [0.6, 1], "friction": 0.5}, "materials": {"sand": {"kind": "sand"}}}
+    scene = {**SCENE, "cell_size": 0.008, "domain": {"min": [0, 0], "max": [0.6, 1], "friction": 0.5}, "materials": {"sand": {"kind": "sand"}}}
     path = tmp_path / "falls.json"
     path.write_text(json.dumps({**scene, "colliders": [], "fills": [sand], "seconds": 3}), encoding="utf-8")
     done = pbmpm_command("run", path, "--json", "-")

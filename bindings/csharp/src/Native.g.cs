@@ -282,8 +282,8 @@ namespace Pbmpm
         PoolStirs = 5,
         /// <summary>the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
-        /// <summary>sand is crushed, comes to rest too flat or runs too fast; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
-        /// with the dual solver and beside liquid; else its mean strain. Crushed where it lands, too flat, or too fast through a hole: its
+        /// <summary>sand is crushed, comes to rest too flat, or runs too fast or too slowly; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
+        /// with the dual solver and beside liquid; else its mean strain. Crushed where it lands, too flat, or running through a hole: its
         /// speed there [cells per substep]</summary>
         SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>

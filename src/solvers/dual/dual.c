@@ -157,6 +157,7 @@ static void bind_cells(World *world)
     a->cells.pressure = cells + 3 * nodes;
     a->cells.pressure_old = cells + 4 * nodes;
     a->cells.solid_growth = guesses_solids(world) ? world->dual.cell_solid_growth.data : NULL;
+    /* Found as a mean of cells, as traces are: see guess(). */
     a->cells.second_order = a->cells.trace = guesses_sand(world) ? world->dual.cell_second_order.data : NULL;
     a->cells.settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->substep) : 1.0f;
     a->cells.elastic_guesses = shares_world(world);
