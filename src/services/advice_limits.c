@@ -37,11 +37,9 @@ static bool slides_far(const Heap *heap)
 
 static void limits_of_sand(Adviser *adviser, uint32_t slot)
 {
-    static const double FALLS = 4.0;  /* [cells] of hoppers over floors 9 to 70 cells below, with necks of 4 to 12 cells at 60, 120 and 240 Hz, heaps have 0.45 to 0.85 of their volume */
     const World *world = adviser->world;
     const Heap *heap = &adviser->survey.heap[slot];
     if (adviser_any_present(world, PBMPM_LIQUID)) tell_limit(adviser, slot, "sand in liquid does not settle: both move as one mixture, and go on stirring");
-    if (heap->hole > 0.0 && heap->drop_most >= FALLS) tell_limit(adviser, slot, "sand that runs out of a hole is crushed by up to half where it heaps up, and swells for some seconds");
     if (heap->steep > STEEP) tell_limit(adviser, slot, "sand starts to slide up to eight degrees too steep");
     if (heap->steep > STEEP && slides_far(heap)) tell_limit(adviser, slot, "sand that slides far loses up to seven percent of its volume");
 }
