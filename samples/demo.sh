@@ -4,6 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . samples/setup.sh
+takes_no_arguments "$@"
 
 install_build_tools
 stage "Building the library"

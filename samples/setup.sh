@@ -1,5 +1,6 @@
 # setup.sh - sets up a machine for samples/demo.sh and tests/run.sh. Sourced from the top folder, not run.
 #
+#   takes_no_arguments "$@"  stops the script that was given any
 #   install_build_tools     CMake, Ninja, a C compiler and Python's venv: installed when missing and root, else named
 #   install_optional WHY PACKAGE...
 #                           installs packages when root; otherwise one line says what is left out for want of them
@@ -8,6 +9,7 @@
 
 stage() { printf '\n=== %s\n' "$*"; }
 stop() { echo "pbmpm: error: $*" >&2; exit 1; }
+takes_no_arguments() { [ $# -eq 0 ] || stop "unknown argument '$1': $(basename "$0") knows no arguments"; }
 
 has() { command -v "$1" >/dev/null 2>&1; }
 is_root() { [ "$(id -u)" -eq 0 ] && has apt-get; }

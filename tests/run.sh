@@ -4,6 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . samples/setup.sh
+takes_no_arguments "$@"
 
 install_build_tools
 has pkg-config || install_optional "the test of the pkg-config file is skipped" pkgconf

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +28,14 @@ def test_a_sample_at_the_pace_of_a_game(root: Path, name: str) -> None:
         simulation.stats()
         assert simulation.finite() and simulation.account()["missing"] == 0
         assert simulation.account()["deleted"] == 0
+
+
+@pytest.mark.parametrize("script", ["samples/demo.sh", "tests/run.sh"])
+def test_scripts_name_the_argument_that_they_do_not_know(root: Path, script: str) -> None:
+    """Before they install or build anything."""
+    done = subprocess.run(["sh", root / script, "--pictres"], capture_output=True, text=True, timeout=60)
+    name = Path(script).name
+    assert (done.returncode, done.stdout, done.stderr) == (1, "", f"pbmpm: error: unknown argument '--pictres': {name} knows no arguments\n")
 
 
 def test_the_jet_turns_the_wheel(root: Path) -> None:
