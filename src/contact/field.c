@@ -189,18 +189,12 @@ static double corner_distance(const Near *near, const double point[3], const Fac
     return is_open(near, before) ? sqrt(dot3(way, way)) : INFINITY;
 }
 
-/* `passed` are left out. */
-static int faces_inside(const Near *near, const double point[3], const Face *passed, int passes, Face face[FIELD_FACES])
+static int faces_inside(const Near *near, const double point[3], Face face[FIELD_FACES])
 {
     Face all[CANDIDATES];
-    const int around = faces_around(near, point, NODE_REACH, all);
+    const int candidates = faces_around(near, point, NODE_REACH, all);
     double best = INFINITY;
-    int count = 0, candidates = 0;
-    for (int i = 0; i < around; i++) {
-        bool left_out = false;
-        for (int k = 0; k < passes; k++) left_out = left_out || (field_same_way(&all[i], &passed[k]) && fabs(all[i].distance - passed[k].distance) < BEFORE);
-        if (!left_out) all[candidates++] = all[i];
-    }
+    int count = 0;
     for (int i = 0; i < candidates; i++) {
         if (all[i].distance > ON_SURFACE || -all[i].distance >= best || !bounds_space(near, &all[i])) continue;
         best = -all[i].distance;
@@ -346,15 +340,18 @@ static void reflect(const Near *near, const Face *face, int count, double point[
     }
 }
 
+static void swap_faces(Face *a, Face *b)
+{
+    const Face swap = *a;
+    *a = *b;
+    *b = swap;
+}
+
 static void sort_by_distance(Face *face, int begin, int count)
 {
     for (int i = begin; i < count; i++)
         for (int j = i + 1; j < count; j++)
-            if (face[j].distance < face[i].distance) {
-                const Face swap = face[i];
-                face[i] = face[j];
-                face[j] = swap;
-            }
+            if (face[j].distance < face[i].distance) swap_faces(&face[i], &face[j]);
 }
 
 /* Behind an inner edge of a baked solid the nearest place is the edge, where faces meet that are seen from before it. */
@@ -390,20 +387,33 @@ static int add_beside(const Near *near, const double point[3], double reach, Fac
 int field_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
 {
     const bool outside = field_distance(near, point) > ON_SURFACE;
-    const int count = outside ? faces_seen(near, point, reach, face) : faces_inside(near, point, NULL, 0, face);
+    const int count = outside ? faces_seen(near, point, reach, face) : faces_inside(near, point, face);
     if (outside) sort_by_distance(face, 0, count);
     return outside || count == 0 ? count : add_beside(near, point, reach, face, count);
 }
 
-int field_other_faces(const Near *near, const double point[3], double reach, const Face *passed, int passes, Face face[FIELD_FACES])
+int field_faces_from(const Near *near, const double place[3], const double point[3], double reach, Face face[FIELD_FACES])
 {
-    const int count = faces_inside(near, point, passed, passes, face);
-    return count == 0 ? 0 : add_beside(near, point, reach, face, count);
+    if (field_distance(near, place) <= ON_SURFACE) return 0;
+    const int count = faces_seen(near, place, reach, face);
+    for (int i = 0; i < count; i++) face[i].distance = distance_to(near, &face[i], point);
+    int behind = 0; /* those that the point is behind come first, in the order of their obstacles, as in field_faces() */
+    for (int i = 0; i < count; i++)
+        if (face[i].distance <= ON_SURFACE) {
+            for (int k = i; k > behind; k--) swap_faces(&face[k], &face[k - 1]);
+            behind++;
+        }
+    sort_by_distance(face, behind, count);
+    return count;
 }
 
-int field_faces_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
+bool field_is_between(const Near *near, const double place[3], const double point[3], const Face *face)
 {
-    return add_beside(near, point, reach, face, 1);
+    const double before = distance_to(near, face, place), behind = distance_to(near, face, point);
+    double hit[3];
+    if (before <= 0.0 || behind >= 0.0) return false;
+    for (int a = 0; a < 3; a++) hit[a] = place[a] + (point[a] - place[a]) * before / (before - behind);
+    return solid_gap(field_solid(near, face->obstacle), hit) <= BEFORE * near->cell_size;
 }
 
 bool field_surface(const Near *near, const double point[3], Face *face)
@@ -509,7 +519,8 @@ double field_open_share(const Near *near, const double point[3], double deepest,
         close++;
     }
     if (least >= NODE_REACH) return 1.0;
-    if (close == 1 && field_solid(near, only)->kind == PBMPM_BOX) return fmax(1.0 - box_share(near, field_solid(near, only), point, one_sided ? known : NULL), field_spline_below(-deepest));
+    const bool in_corner = one_sided && count > 1; /* what is open beyond the other faces does not count either */
+    if (close == 1 && field_solid(near, only)->kind == PBMPM_BOX && !in_corner) return fmax(1.0 - box_share(near, field_solid(near, only), point, one_sided ? known : NULL), field_spline_below(-deepest));
     if (!known) count = field_faces(near, point, NODE_REACH, face);
     for (int i = 0; i < count; i++) share *= field_spline_below(fmax((known ? known : face)[i].distance, -deepest));
     return count > 0 || least > 0.0 ? share : field_spline_below(-deepest);

@@ -62,11 +62,11 @@ double field_distance(const Near *near, const double point[3]);
  * spline of a node reaches. */
 int field_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES]);
 
-/* The same of a point in obstacles without the faces that were passed over. */
-int field_other_faces(const Near *near, const double point[3], double reach, const Face *passed, int passes, Face face[FIELD_FACES]);
+/* The planes that are seen from a place in the open, the nearest to `point` first: that may be behind them. 0: the place is in an obstacle, or sees none. */
+int field_faces_from(const Near *near, const double place[3], const double point[3], double reach, Face face[FIELD_FACES]);
 
-/* The same where face[0] is given. */
-int field_faces_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES]);
+/* Whether a face that is seen from `place` stands between it and `point`. */
+bool field_is_between(const Near *near, const double place[3], const double point[3], const Face *face);
 
 /* Planes whose normals differ by less count as one: the nearest. Those of one baked solid are guesses and have to differ by 45 degrees, halfway to an edge; exact ones by
  * 18: of a blunter inner edge the stretch where matter is close to both planes would be as long as a block. Blunter ones are rounded, see walls_find.c. */

@@ -15,6 +15,16 @@ void obstacle_set_turn(Obstacle *o)
             for (int k = 0; k < 3; k++) o->turn[r * 3 + c] += o->end.rotation[r * 3 + k] * o->start.rotation[c * 3 + k];
 }
 
+double obstacle_breadth(const Obstacle *obstacle)
+{
+    const Solid *s = &obstacle->end;
+    if (obstacle->wall || s->kind == PBMPM_PLANE) return INFINITY;
+    if (s->grid) return 0.0;
+    double half = s->kind == PBMPM_BOX ? s->half_extents[0] : s->radius;
+    for (int a = 1; a < s->dimension && s->kind == PBMPM_BOX; a++) half = fmin(half, s->half_extents[a]);
+    return 2.0 * half;
+}
+
 /* x -> end + turn (x - start). */
 void obstacle_motion(const Obstacle *o, const double point[3], double cell_size, float limit, float out[3])
 {

@@ -253,18 +253,16 @@ static const double AT_SURFACE = 1e-3; /* [cells] before a surface: there a way 
  * side without ever having been inside. Their way is followed through the distances of the obstacle, at the end of the substep (sphere
  * tracing: J. Hart, "Sphere tracing", The Visual Computer 12, 1996). Shorter ways than these end inside, where they are noticed. */
 static const double LONGEST_UNSEEN = 0.5, LONGEST_UNSEEN_BAKED = 0.25; /* [cells] */
+static const double SHALLOW = 0.75; /* of the way to the middle of an obstacle: what ends there is nearer to the face that it came through, in spite of roundings */
 static const double NUDGED_MOST = 0.1; /* [cells]: what crowded particles move beside their way */
 static const double CARRIED_MOST = 1.0; /* [cells per substep]: what an obstacle that is faster lands on is not carried along */
 
 /* The longest way [cells] that needs no look; infinite for what cannot be passed. */
 static double longest_unseen(const ContactFrame *frame, const Obstacle *o)
 {
-    const Solid *s = &o->end;
-    if (o->wall || s->kind == PBMPM_PLANE) return INFINITY;
-    if (s->grid) return LONGEST_UNSEEN_BAKED;
-    double half = s->kind == PBMPM_BOX ? s->half_extents[0] : s->radius;
-    for (int a = 1; a < s->dimension && s->kind == PBMPM_BOX; a++) half = fmin(half, s->half_extents[a]);
-    return fmin(LONGEST_UNSEEN, half / frame->cell_size);
+    if (o->end.grid) return LONGEST_UNSEEN_BAKED;
+    const double half = 0.5 * obstacle_breadth(o) / frame->cell_size;
+    return half < INFINITY ? fmin(LONGEST_UNSEEN, SHALLOW * half) : INFINITY;
 }
 
 /* The middle of a block, from the anchor [m]. */
@@ -339,7 +337,8 @@ static bool slide(const ContactFrame *frame, const Obstacle *o, const double fro
     return true;
 }
 
-static void hold_back(const ContactFrame *frame, const View *view, const Pushed *one, double unseen, ImpulseSum *sum)
+/* False: nothing was in its way. */
+static bool hold_back(const ContactFrame *frame, const View *view, const Pushed *one, double unseen, ImpulseSum *sum)
 {
     const Particles *p = one->all;
     const uint32_t row = one->row;
@@ -360,9 +359,11 @@ static void hold_back(const ContactFrame *frame, const View *view, const Pushed 
             way[a] -= (double)surface[a];
             length2 += way[a] * way[a];
         }
-        if ((double)carried2 > CARRIED_MOST * CARRIED_MOST) return;
+        if ((double)carried2 > CARRIED_MOST * CARRIED_MOST) return false;
     }
-    if (length2 > unseen * unseen && slide(frame, o, from, way, back, normal)) put_back(frame, view, one, back, normal, sum);
+    if (!(length2 > unseen * unseen) || !slide(frame, o, from, way, back, normal)) return false;
+    put_back(frame, view, one, back, normal, sum);
+    return true;
 }
 
 /* ---- Both ---- */
@@ -372,17 +373,41 @@ static bool is_near(const ContactFrame *frame, const Obstacle *o, int32_t block)
     return is_in_reach(frame, o, block, (double)((const float *)frame->grid->travel.data)[block]);
 }
 
-/* Holds back what passed one obstacle. */
-static void hold_block(const ContactFrame *frame, const Obstacle *o, Particles *particles, int32_t block, ImpulseSum *sum)
+/* Holds back what passed one obstacle; false: nothing did. */
+static bool hold_block(const ContactFrame *frame, const Obstacle *o, Particles *particles, int32_t block, ImpulseSum *sum)
 {
     const uint32_t *begin = frame->grid->block_begin.data;
     const double unseen = longest_unseen(frame, o);
-    if (!(unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block])) return;
+    if (!(unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block])) return false;
     const View view = view_from(frame, o, block);
+    bool held = false;
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
         const Pushed one = {particles, block, row};
-        if (particles->status[row] == K_ALIVE && obstacle_meets(o, contacts_row_groups(frame, particles, row))) hold_back(frame, &view, &one, unseen, sum);
+        if (particles->status[row] == K_ALIVE && obstacle_meets(o, contacts_row_groups(frame, particles, row))) held = hold_back(frame, &view, &one, unseen, sum) || held;
     }
+    return held;
+}
+
+/* Holds back what passed obstacles, from number `first` on. One that holds a particle back may send it through another, which is asked again then. False: there is no
+ * room to book in. */
+static bool hold_all(const ContactFrame *frame, Particles *particles, int32_t block, int first, const Book *book)
+{
+    bool held = true;
+    for (int round = 0; round < particles->dimension && held; round++, first = 0) {
+        held = false;
+        for (int i = first; i < frame->colliders->obstacle_count; i++) {
+            const Obstacle *o = &frame->colliders->obstacle[i];
+            ImpulseSum *sum;
+            if (!is_near(frame, o, block)) continue;
+            if (!find_sum(frame, book, o, &sum)) {
+                book->notes->resume = i;
+                book->notes->row = ((const uint32_t *)frame->grid->block_begin.data)[block];
+                return false;
+            }
+            held = hold_block(frame, o, particles, block, sum) || held;
+        }
+    }
+    return true;
 }
 
 /* Works on a block from the obstacle `first` on, and behind the last one from the row `row` on. */
@@ -395,17 +420,7 @@ static void push_block(const ContactFrame *frame, Particles *particles, int32_t 
     Anchored anchored;
     count_from_anchor(frame, &anchored);
     frame = &anchored.frame;
-    for (int i = first; i < colliders->obstacle_count; i++) {
-        const Obstacle *o = &anchored.colliders.obstacle[i];
-        ImpulseSum *sum;
-        if (!is_near(frame, o, block)) continue;
-        if (!find_sum(frame, book, o, &sum)) {
-            book->notes->resume = i;
-            book->notes->row = begin[block];
-            return;
-        }
-        hold_block(frame, o, particles, block, sum);
-    }
+    if (!hold_all(frame, particles, block, first, book)) return;
     centre_of(frame, block, centre);
     const double reach = 0.5 * K_BLOCK_AXIS * sqrt((double)particles->dimension) + (double)((const float *)frame->grid->travel.data)[block];
     field_near(&near, frame, centre, reach, true); /* what particles can be in; what else bounds the way out is looked for where one is */

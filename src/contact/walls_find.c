@@ -105,7 +105,8 @@ static Turn turn_of(const Builder *b, const Bound *bound)
             const Bound *beside = other == GRID_NOWHERE ? NULL : bound_at(b, other);
             double distance = face->distance + side * face->normal[a];
             if (beside && goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
-            if (!beside && other != GRID_NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
+            const bool across = bound->thin && distance < 0.0; /* its gap is that of the wall's other side */
+            if (!beside && !across && other != GRID_NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
             const bool turns = beside ? dot3(face->normal, beside->face[0].normal) <= SMOOTH : distance - face->distance - side * face->normal[a] > OFF_PLANE;
             smooth = smooth && beside && !turns;
             sharp = sharp || turns;
@@ -513,7 +514,16 @@ static void add_follower(Builder *b, uint32_t index)
 typedef struct FindJob {
     Walls *walls;
     const ContactFrame *frame;
+    float reach; /* [cells] from walls, of nodes that may be at them */
 } FindJob;
+
+/* A cell; but matter beyond a thin wall reaches nodes farther before it: the spline ends NODE_REACH along each axis. */
+static float reach_of_walls(const ContactFrame *frame)
+{
+    double thinnest = INFINITY;
+    for (int i = 0; i < frame->colliders->obstacle_count; i++) thinnest = fmin(thinnest, obstacle_breadth(&frame->colliders->obstacle[i]));
+    return (float)fmax(1.0, NODE_REACH * sqrt((double)frame->grid->dimension) - thinnest / frame->cell_size);
+}
 
 static void look_near_block(const ContactFrame *frame, int32_t block, Near *near)
 {
@@ -538,7 +548,7 @@ static void mark_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t block = begin; block < end; block++) {
         marks[block] = 0;
         for (int node = 0; node < grid->block_cells; node++)
-            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < 1.0f && !is_held(job->frame, block, node) && !has_contacts(job->frame, block, node))
+            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < job->reach && !is_held(job->frame, block, node) && !has_contacts(job->frame, block, node))
                 marks[block] |= (uint64_t)1 << node;
     }
 }
@@ -707,7 +717,7 @@ static bool bind_nodes(Builder *b, Pool *pool)
     Walls *walls = b->walls;
     const Grid *grid = b->frame->grid;
     const size_t blocks = (size_t)grid->node_blocks;
-    FindJob job = {walls, b->frame};
+    FindJob job = {walls, b->frame, reach_of_walls(b->frame)};
     if (!array_reserve(b->memory, &walls->marked, blocks, sizeof(uint64_t)) || !array_reserve(b->memory, &walls->begin, blocks, sizeof(uint32_t))) return false;
     const uint64_t *marks = walls->marked.data;
     uint32_t *begin = walls->begin.data, count = 0;

@@ -3,10 +3,30 @@
 #include <math.h>
 #include <string.h>
 
-/* Below this share of the other side's matter a side of a thin wall counts as dry. */
-static const float DRY = 0.02f;
+/* How far [nodes] along each axis a node looks for its matter. */
+enum { LOOKS = 2 };
 
-/* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it. */
+/* The middle of the matter around a node, of the masses of the nodes around it. A node has its matter from particles that may all be beyond a thin wall. */
+static void middle_of_matter(const WetSite *site, double middle[3])
+{
+    const Grid *grid = site->frame->grid;
+    const float *node = grid->node.data;
+    const int deep = grid->dimension == 3 ? LOOKS : 0;
+    double sum = 0.0, moment[3] = {0};
+    for (int z = -deep; z <= deep; z++)
+        for (int y = -LOOKS; y <= LOOKS; y++)
+            for (int x = -LOOKS; x <= LOOKS; x++) {
+                const int way[3] = {x, y, z};
+                const int64_t there = grid_node_beside(grid, site->block, site->local, way);
+                if (there < 0) continue;
+                const double mass = (double)node[there * K_NODE_WIDTH + 3];
+                sum += mass;
+                for (int a = 0; a < 3; a++) moment[a] += way[a] * mass;
+            }
+    for (int a = 0; a < 3; a++) middle[a] = site->point[a] + (sum > 0.0 ? moment[a] / sum * site->near->cell_size : 0.0);
+}
+
+/* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it, and before the node. */
 static float wetness(const WetSite *site, const Face *face)
 {
     const Grid *grid = site->frame->grid;
@@ -14,53 +34,62 @@ static float wetness(const WetSite *site, const Face *face)
     float most = 0.0f;
     for (double before = 0.6; before < 1.5; before += 0.8) {
         int way[3];
-        for (int a = 0; a < 3; a++) way[a] = (int)field_whole((before - face->distance) * face->normal[a] + 0.5);
+        for (int a = 0; a < 3; a++) way[a] = (int)field_whole((before - fmin(face->distance, 0.0)) * face->normal[a] + 0.5);
         const int64_t there = grid_node_beside(grid, site->block, site->local, way);
         if (there >= 0) most = fmaxf(most, node[there * K_NODE_WIDTH + 3]);
     }
     return most;
 }
 
-bool wet_is_dry(const WetSite *site, const Face *face) { return face->distance < WET_CLEAR && site->mass > 0.0f && wetness(site, face) <= DRY * site->mass; }
+/* Below this share of a node's matter the space before a face counts as dry. */
+static const float DRY = 0.02f;
 
-/* Where thin walls meet, the nearest way out of a node in them leads past the corner to the dry side: taken for that, it would let matter into the corner. The next
- * ways out are tried until there is matter before one. Returns the number of its faces; 0: there is none. */
-static int find_wet_faces(const WetSite *site, double reach, const Face *nearest, Face face[FIELD_FACES])
+bool wet_is_dry(const WetSite *site, const Face *face) { return site->mass > 0.0f && wetness(site, face) <= DRY * site->mass; }
+
+/* Whether there is open space within reach of the node's spline behind a face. */
+static bool is_open_behind(const WetSite *site, const Face *face)
 {
-    enum { MOST = 6 }; /* faces of a corner of three walls */
-    Face passed[MOST];
-    int passes = 0;
-    for (passed[passes++] = *nearest; passes <= MOST; passed[passes++] = face[0]) {
-        const int faces = field_other_faces(site->near, site->point, reach, passed, passes, face);
-        if (faces == 0 || !wet_is_dry(site, &face[0])) return faces;
-        if (passes == MOST) return 0;
+    const double *n = face->normal, reach = NODE_REACH * (fabs(n[0]) + fabs(n[1]) + fabs(n[2])); /* of the spline along n */
+    double behind[3];
+    for (int a = 0; a < 3; a++) behind[a] = site->point[a] - reach * site->near->cell_size * n[a];
+    return field_distance(site->near, behind) > 0.0;
+}
+
+/* Whether matter beyond an obstacle may reach the node: one that is thinner than the spline is wide. How thick what is baked is there, nobody knows. */
+static bool may_be_beyond(const WetSite *site, const Face *face)
+{
+    const Near *near = site->near;
+    const double reach = NODE_REACH * sqrt((double)near->dimension);
+    bool baked = false;
+    for (int i = 0; i < near->count; i++) {
+        const Solid *solid = field_solid(near, near->obstacle[i]);
+        if (obstacle_breadth(near->obstacle[i]) >= reach * near->cell_size || solid_gap(solid, site->point) >= reach * near->cell_size) continue;
+        if (!solid->grid) return true;
+        baked = true;
     }
-    return 0;
+    return baked && (is_open_behind(site, face) || wet_is_dry(site, face));
 }
 
 int wet_faces(const WetSite *site, double reach, Face face[FIELD_FACES], bool *thin, bool *both)
 {
-    Face other, wet[FIELD_FACES];
-    double behind[3];
+    double middle[3];
+    Face seen[FIELD_FACES], other;
     const int faces = field_faces(site->near, site->point, reach, face);
     *both = *thin = false;
-    if (faces == 0 || face[0].distance >= WET_CLEAR) return faces;
-    for (int a = 0; a < 3; a++) behind[a] = site->point[a] - NODE_REACH * site->near->cell_size * face[0].normal[a];
-    *thin = field_distance(site->near, behind) > 0.0 && field_opposite(site->near, site->point, &face[0], &other);
-    if (!*thin) {
-        const int wets = wet_is_dry(site, &face[0]) ? find_wet_faces(site, reach, &face[0], wet) : 0;
-        *thin = wets > 0;
-        if (wets == 0) return faces;
-        memcpy(face, wet, sizeof wet);
-        return wets;
+    if (faces == 0 || site->mass <= 0.0f) return faces;
+    if (!may_be_beyond(site, &face[0])) return faces;
+    *thin = true;
+    middle_of_matter(site, middle);
+    const int count = field_faces_from(site->near, middle, site->point, reach, seen);
+    if (count > 0) {
+        bool apart = face[0].distance <= 0.0; /* in a wall */
+        for (int i = 0; i < count && !apart; i++) apart = field_is_between(site->near, middle, site->point, &seen[i]);
+        if (!apart) return faces;
+        memcpy(face, seen, sizeof seen);
+        return count;
     }
-    const float here = wetness(site, &face[0]), there = wetness(site, &other);
-    if (there <= DRY * here) return faces;
-    *both = here > DRY * there;
-    if (*both) {
-        face[1] = other;
-        return 1;
-    }
-    face[0] = other;
-    return field_faces_beside(site->near, site->point, reach, face);
+    *both = face[0].distance < WET_CLEAR && field_opposite(site->near, site->point, &face[0], &other);
+    if (!*both) return faces;
+    face[1] = other;
+    return 1;
 }
