@@ -19,7 +19,7 @@ double obstacle_breadth(const Obstacle *obstacle)
 {
     const Solid *s = &obstacle->end;
     if (obstacle->wall || s->kind == PBMPM_PLANE) return INFINITY;
-    if (s->grid) return 0.0;
+    if (s->grid) return s->grid->spacing;
     double half = s->kind == PBMPM_BOX ? s->half_extents[0] : s->radius;
     for (int a = 1; a < s->dimension && s->kind == PBMPM_BOX; a++) half = fmin(half, s->half_extents[a]);
     return 2.0 * half;

@@ -64,7 +64,7 @@ void obstacle_set_turn(Obstacle *obstacle);
 /* Distance [m] of a point from an obstacle at the end of the substep, negative inside, and the outward normal. */
 double obstacle_distance(const Obstacle *obstacle, const double point[3], double normal[3]);
 
-/* How thick [m] it is where it is thinnest; 0 if that is not known, as of what is baked. */
+/* How thick [m] it is where it is thinnest; of what is baked the least that its grid can show. */
 double obstacle_breadth(const Obstacle *obstacle);
 
 /* Where the obstacle carries a point of its own in the substep [cells], at most `limit`. */

@@ -392,9 +392,10 @@ static bool hold_block(const ContactFrame *frame, const Obstacle *o, Particles *
  * room to book in. */
 static bool hold_all(const ContactFrame *frame, Particles *particles, int32_t block, int first, const Book *book)
 {
-    bool held = true;
-    for (int round = 0; round < particles->dimension && held; round++, first = 0) {
-        held = false;
+    bool again = true;
+    for (int round = 0; round < particles->dimension && again; round++, first = 0) {
+        bool held = false;
+        int asked = 0;
         for (int i = first; i < frame->colliders->obstacle_count; i++) {
             const Obstacle *o = &frame->colliders->obstacle[i];
             ImpulseSum *sum;
@@ -405,7 +406,9 @@ static bool hold_all(const ContactFrame *frame, Particles *particles, int32_t bl
                 return false;
             }
             held = hold_block(frame, o, particles, block, sum) || held;
+            asked++;
         }
+        again = held && asked > 1;
     }
     return true;
 }

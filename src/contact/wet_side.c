@@ -26,48 +26,20 @@ static void middle_of_matter(const WetSite *site, double middle[3])
     for (int a = 0; a < 3; a++) middle[a] = site->point[a] + (sum > 0.0 ? moment[a] / sum * site->near->cell_size : 0.0);
 }
 
-/* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it, and before the node. */
-static float wetness(const WetSite *site, const Face *face)
-{
-    const Grid *grid = site->frame->grid;
-    const float *node = grid->node.data;
-    float most = 0.0f;
-    for (double before = 0.6; before < 1.5; before += 0.8) {
-        int way[3];
-        for (int a = 0; a < 3; a++) way[a] = (int)field_whole((before - fmin(face->distance, 0.0)) * face->normal[a] + 0.5);
-        const int64_t there = grid_node_beside(grid, site->block, site->local, way);
-        if (there >= 0) most = fmaxf(most, node[there * K_NODE_WIDTH + 3]);
-    }
-    return most;
-}
-
-/* Below this share of a node's matter the space before a face counts as dry. */
-static const float DRY = 0.02f;
-
-bool wet_is_dry(const WetSite *site, const Face *face) { return site->mass > 0.0f && wetness(site, face) <= DRY * site->mass; }
-
-/* Whether there is open space within reach of the node's spline behind a face. */
-static bool is_open_behind(const WetSite *site, const Face *face)
-{
-    const double *n = face->normal, reach = NODE_REACH * (fabs(n[0]) + fabs(n[1]) + fabs(n[2])); /* of the spline along n */
-    double behind[3];
-    for (int a = 0; a < 3; a++) behind[a] = site->point[a] - reach * site->near->cell_size * n[a];
-    return field_distance(site->near, behind) > 0.0;
-}
-
-/* Whether matter beyond an obstacle may reach the node: one that is thinner than the spline is wide. How thick what is baked is there, nobody knows. */
-static bool may_be_beyond(const WetSite *site, const Face *face)
+/* Whether matter beyond an obstacle may reach the node. What is baked is at least as thick as its grid can show, and how thick it is a look through it tells. */
+static bool may_be_beyond(const WetSite *site)
 {
     const Near *near = site->near;
-    const double reach = NODE_REACH * sqrt((double)near->dimension);
-    bool baked = false;
     for (int i = 0; i < near->count; i++) {
         const Solid *solid = field_solid(near, near->obstacle[i]);
-        if (obstacle_breadth(near->obstacle[i]) >= reach * near->cell_size || solid_gap(solid, site->point) >= reach * near->cell_size) continue;
-        if (!solid->grid) return true;
-        baked = true;
+        double n[3], beyond[3];
+        const double distance = solid_distance(solid, site->point, n);
+        const double reach = NODE_REACH * (fabs(n[0]) + fabs(n[1]) + fabs(n[2])) * near->cell_size; /* of the spline along n */
+        if (distance + obstacle_breadth(near->obstacle[i]) >= reach) continue;
+        for (int a = 0; a < 3; a++) beyond[a] = site->point[a] - reach * n[a];
+        if (!solid->grid || solid_gap(solid, beyond) > 0.0) return true;
     }
-    return baked && (is_open_behind(site, face) || wet_is_dry(site, face));
+    return false;
 }
 
 int wet_faces(const WetSite *site, double reach, Face face[FIELD_FACES], bool *thin, bool *both)
@@ -76,8 +48,7 @@ int wet_faces(const WetSite *site, double reach, Face face[FIELD_FACES], bool *t
     Face seen[FIELD_FACES], other;
     const int faces = field_faces(site->near, site->point, reach, face);
     *both = *thin = false;
-    if (faces == 0 || site->mass <= 0.0f) return faces;
-    if (!may_be_beyond(site, &face[0])) return faces;
+    if (faces == 0 || site->mass <= 0.0f || !may_be_beyond(site)) return faces;
     *thin = true;
     middle_of_matter(site, middle);
     const int count = field_faces_from(site->near, middle, site->point, reach, seen);

@@ -11,7 +11,7 @@ static const double WET_CLEAR = 0.4999;
 /* Where a node looks from. */
 typedef struct WetSite {
     const ContactFrame *frame;
-    const Near *near; /* wet_is_dry() does not ask */
+    const Near *near;
     int32_t block;
     int local[3]; /* of the node in its block */
     double point[3];
@@ -21,8 +21,5 @@ typedef struct WetSite {
 /* Those faces, the nearest first, and others within `reach` [cells]; returns their number. `thin`: there is open space behind, too. `both`: matter is on both sides, and
  * the face is one, the other side's behind it in face[1]. */
 int wet_faces(const WetSite *site, double reach, Face face[FIELD_FACES], bool *thin, bool *both);
-
-/* Whether the matter that reaches a node in a wall is elsewhere than before this face. */
-bool wet_is_dry(const WetSite *site, const Face *face);
 
 #endif

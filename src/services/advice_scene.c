@@ -114,6 +114,28 @@ static double thickness_of(const Collider *collider, int dimension)
     return least;
 }
 
+/* Whether matter is within reach of a box's two widest faces. What is round has matter all around, or may have it soon. */
+static bool parts_matter(const World *world, const Collider *collider)
+{
+    const Particles *p = &world->particles;
+    const double cell = (double)world->def.cell_size;
+    if (collider->shape.kind != PBMPM_BOX) return true;
+    const Solid solid = solid_of(&collider->shape, p->dimension);
+    int thin = 0;
+    bool found[2] = {false, false};
+    for (int a = 1; a < p->dimension; a++) thin = solid.half_extents[a] < solid.half_extents[thin] ? a : thin;
+    for (uint32_t row = 0; row < p->count && !(found[0] && found[1]); row++) {
+        double away[3] = {0}, local[3] = {0};
+        bool beside = true;
+        for (int a = 0; a < p->dimension; a++) away[a] = particles_coordinate(p, row, a) * cell - solid.position[a];
+        for (int a = 0; a < p->dimension; a++)
+            for (int b = 0; b < p->dimension; b++) local[a] += solid.rotation[3 * b + a] * away[b];
+        for (int a = 0; a < p->dimension; a++) beside = beside && fabs(local[a]) <= solid.half_extents[a] + (a == thin ? NODE_REACH * cell : 0.0);
+        if (beside) found[local[thin] > 0.0] = true;
+    }
+    return found[0] && found[1];
+}
+
 void advise_collider_too_thin(Adviser *adviser)
 {
     const World *world = adviser->world;
@@ -122,9 +144,9 @@ void advise_collider_too_thin(Adviser *adviser)
         const Collider *collider = &world->colliders.slot[c];
         if (!world_feels(world, collider)) continue;
         const double cells = thickness_of(collider, world->def.dimension) / cell;
-        if (cells >= 1.0 - 1e-5) continue;
+        if (cells >= 1.0 - 1e-5 || !parts_matter(world, collider)) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_THIN, .collider = {c, collider->generation}, .figure = (float)cells, .bound = 1.0f,
-                               .text = "an obstacle is thinner than a cell: water beside it loses its level, and feels what is on the other side"};
+                               .text = "an obstacle is thinner than a cell, with matter on both sides: one side feels the other, and water there stirs"};
         adviser_by_value(PBMPM_CHANGE_COLLIDER, cell, 0.0, &advice);
         adviser_give(adviser, advice);
     }

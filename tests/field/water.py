@@ -26,12 +26,17 @@ def _places(kind: str) -> dict[str, dict[str, Any]]:
     two_3d=dict(thick=2, dimension=3),
     half=dict(thick=0.5),
     half_3d=dict(thick=0.5, dimension=3),
+    quarter_off=dict(thick=0.25, shift=0.3),
+    tenth=dict(thick=0.1),
+    tenth_3d=dict(thick=0.1, dimension=3),
+    fifth_turned_20=dict(thick=0.2, angle=20),
+    fifth_turned_30=dict(thick=0.2, angle=30),
 )
-def thin_glass(run: Run, thick: float, shift: float = 0.0, dimension: int = 2) -> None:
+def thin_glass(run: Run, thick: float, shift: float = 0.0, dimension: int = 2, angle: float = 0.0) -> None:
     """A glass of boxes whose walls are so few cells thick: water rests in it, and none is pressed into its corners."""
     cell, width, depth = 0.05, 1.2 if dimension == 2 else 0.6, 0.6 if dimension == 2 else 0.4
-    frame = Frame(dimension, 0, shift * cell)
-    with run.world(dimension, cell) as world:
+    frame = Frame(dimension, angle, shift * cell)
+    with run.world(dimension, cell, frame.gravity) as world:
         tank(world, frame, width, depth + 0.2, "boxes", thick=thick * cell)
         pool(world, frame, [0.0] * dimension, [width, depth] + [width] * (dimension - 2), Liquid())
         run.steps(world, 5)
@@ -314,7 +319,12 @@ def block_wall(run: Run, offset: float) -> None:
 
 
 @case(
-    two_cells=dict(cells=2.0, shift=0.0), two_cells_off=dict(cells=2.0, shift=0.5), one_cell=dict(cells=1.0, shift=0.0), one_cell_off=dict(cells=1.0, shift=0.4)
+    two_cells=dict(cells=2.0, shift=0.0),
+    two_cells_off=dict(cells=2.0, shift=0.5),
+    one_cell=dict(cells=1.0, shift=0.0),
+    one_cell_off=dict(cells=1.0, shift=0.4),
+    half_a_cell=dict(cells=0.5, shift=0.0),
+    tenth_of_a_cell=dict(cells=0.1, shift=0.4),
 )
 def two_pools(run: Run, cells: float, shift: float) -> None:
     """A thin wall between pools of 12 and 6 cells."""

@@ -122,7 +122,7 @@ SCENE = {
     "materials": {"jam": {"kind": "liquid", "viscosity": 0.5}},
     "fills": [{"shape": {"kind": "box", "position": [0.5, 0.2], "half_extents": [0.5, 0.2]}, "material": "jam"}],
     "colliders": [
-        {"shape": {"kind": "box", "position": [0.5, 0.8], "half_extents": [0.1, 0.01]}},
+        {"shape": {"kind": "box", "position": [0.5, 0.2], "half_extents": [0.1, 0.01]}},
         {
             "shape": {"kind": "sphere", "position": [0.2, 0.9], "radius": 0.05},
             "motion": {"keyframes": [{"time": 0, "position": [0.2, 0.9]}, {"time": 0.1, "position": [0.8, 0.9]}]},
@@ -153,7 +153,7 @@ def test_obstacles_are_named_by_shape_and_index() -> None:
     with pbmpm.World(2, 0.05, gravity=(0, -9.81)) as world:
         world.fill(pbmpm.Box((0, 0.5), (0.2, 0.2)), world.add_material(pbmpm.Liquid()))
         world.add_collider(pbmpm.Plane((0, 0), (0, 1)))
-        thin = world.add_collider(pbmpm.Box((0, 0.1), (1, 0.01)))
+        thin = world.add_collider(pbmpm.Box((0, 0.5), (1, 0.01), rotation=0.3))
         (item,) = [item for item in world.advice(1 / 60) if item.code is AdviceCode.COLLIDER_TOO_THIN]
         assert (item.owner, item.collider) == (f"box collider {thin.identity[0]}", thin.identity)
 
