@@ -29,7 +29,7 @@ typedef enum pbmpm_advice_code {
                                             the contact of an equally thick ball lasts (Hertz's theory) */
     PBMPM_ADVICE_ROLLING_BRAKED = 10,  /**< a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle moves so fast that it skips past matter. Figure: its displacement in the next substep [cells] */
-    PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< matter passes or reaches through. Figure: its thickness [cells] */
+    PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< an obstacle between matter on both sides is so thin that one side feels the other. Figure: its thickness [cells] */
     PBMPM_ADVICE_STEP_TOO_LONG = 13,   /**< matter or a jet is faster than settings.max_displacement lets it be. Or liquid and bodies enter each other where they
                                             meet. Figure: [cells per substep] */
     PBMPM_ADVICE_OVERLAPS = 17,        /**< before the first step: matter was put where there is other matter. Figure: share of the material that lies in

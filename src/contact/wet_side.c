@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* How far [nodes] along each axis a node looks for its matter. */
+/* How far [nodes] along each axis a node looks for its matter: what it feels lies within 1.5 cells, and is heaviest at nodes up to two off. */
 enum { LOOKS = 2 };
 
 /* The middle of the matter around a node, of the masses of the nodes around it. A node has its matter from particles that may all be beyond a thin wall. */

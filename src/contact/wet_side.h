@@ -1,5 +1,5 @@
-/* The faces that a node is bound to. In a thin wall, thinner than two reaches of a node's spline, it is not the nearest but that before which the matter is: taken for the
- * other, matter that leans on the wall would be drawn into it. */
+/* The faces that a node is bound to. Matter beyond a wall that is thinner than a node's spline reaches the node through it. So the nearest face is not always the right one:
+ * taken for the other side's, matter that leans on the wall would be pressed through it. A node is bound to the faces that its matter sees. */
 #ifndef PBMPM_SRC_CONTACT_WET_SIDE_H
 #define PBMPM_SRC_CONTACT_WET_SIDE_H
 
@@ -18,8 +18,8 @@ typedef struct WetSite {
     float mass;
 } WetSite;
 
-/* Those faces, the nearest first, and others within `reach` [cells]; returns their number. `thin`: there is open space behind, too. `both`: matter is on both sides, and
- * the face is one, the other side's behind it in face[1]. */
+/* Those faces, the nearest first, and others within `reach` [cells]; returns their number. `thin`: matter beyond a wall may reach the node, so they
+ * hang on where matter is. `both`: matter is on both sides; then the face is one, and the other side's stands behind it in face[1]. */
 int wet_faces(const WetSite *site, double reach, Face face[FIELD_FACES], bool *thin, bool *both);
 
 #endif
