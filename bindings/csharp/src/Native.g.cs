@@ -295,7 +295,7 @@ namespace Pbmpm
         RollingBraked = 10,
         /// <summary>an obstacle moves so fast that it skips past matter. Figure: its displacement in the next substep [cells]</summary>
         ColliderTooFast = 11,
-        /// <summary>matter passes or reaches through. Figure: its thickness [cells]</summary>
+        /// <summary>an obstacle between matter on both sides is so thin that one side feels the other. Figure: its thickness [cells]</summary>
         ColliderTooThin = 12,
         /// <summary>matter or a jet is faster than settings.max_displacement lets it be. Or liquid and bodies enter each other where they
         /// meet. Figure: [cells per substep]</summary>
