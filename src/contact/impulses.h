@@ -28,6 +28,7 @@ typedef struct PushNotes {
     int32_t obstacle[PUSH_NOTES];
     int32_t count;
     int32_t resume; /* -1: done */
+    bool held;      /* something was held back by those before it */
     uint32_t row;
 } PushNotes;
 

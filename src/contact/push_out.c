@@ -388,20 +388,20 @@ static bool hold_block(const ContactFrame *frame, const Obstacle *o, Particles *
     return held;
 }
 
-/* Holds back what passed obstacles, from number `first` on. One that holds a particle back may send it through another, which is asked again then. False: there is no
- * room to book in. */
-static bool hold_all(const ContactFrame *frame, Particles *particles, int32_t block, int first, const Book *book)
+/* Holds back what passed obstacles, from number `first` on; `held`: those before it did. One that holds a particle back may send it through another, which is asked again
+ * then. False: there is no room to book in, which comes in the first round if at all. */
+static bool hold_all(const ContactFrame *frame, Particles *particles, int32_t block, int first, bool held, const Book *book)
 {
     bool again = true;
-    for (int round = 0; round < particles->dimension && again; round++, first = 0) {
-        bool held = false;
-        int asked = 0;
+    for (int round = 0; round < particles->dimension && again; round++, first = 0, held = false) {
+        int asked = first; /* who waited had met several */
         for (int i = first; i < frame->colliders->obstacle_count; i++) {
             const Obstacle *o = &frame->colliders->obstacle[i];
             ImpulseSum *sum;
             if (!is_near(frame, o, block)) continue;
             if (!find_sum(frame, book, o, &sum)) {
                 book->notes->resume = i;
+                book->notes->held = held;
                 book->notes->row = ((const uint32_t *)frame->grid->block_begin.data)[block];
                 return false;
             }
@@ -413,8 +413,8 @@ static bool hold_all(const ContactFrame *frame, Particles *particles, int32_t bl
     return true;
 }
 
-/* Works on a block from the obstacle `first` on, and behind the last one from the row `row` on. */
-static void push_block(const ContactFrame *frame, Particles *particles, int32_t block, int first, uint32_t row, const Book *book)
+/* Works on a block from the obstacle `first` on, and behind the last one from the row `row` on. `held`: see hold_all(). */
+static void push_block(const ContactFrame *frame, Particles *particles, int32_t block, int first, bool held, uint32_t row, const Book *book)
 {
     const Colliders *colliders = frame->colliders;
     const uint32_t *begin = frame->grid->block_begin.data;
@@ -423,7 +423,7 @@ static void push_block(const ContactFrame *frame, Particles *particles, int32_t 
     Anchored anchored;
     count_from_anchor(frame, &anchored);
     frame = &anchored.frame;
-    if (!hold_all(frame, particles, block, first, book)) return;
+    if (!hold_all(frame, particles, block, first, held, book)) return;
     centre_of(frame, block, centre);
     const double reach = 0.5 * K_BLOCK_AXIS * sqrt((double)particles->dimension) + (double)((const float *)frame->grid->travel.data)[block];
     field_near(&near, frame, centre, reach, true); /* what particles can be in; what else bounds the way out is looked for where one is */
@@ -437,6 +437,7 @@ static void push_block(const ContactFrame *frame, Particles *particles, int32_t 
         const Pushed one = {particles, block, row};
         if (push_particle(frame, meeting, centre, reach, &one, book)) continue;
         book->notes->resume = colliders->obstacle_count;
+        book->notes->held = false;
         book->notes->row = row;
         return;
     }
@@ -452,7 +453,7 @@ void contacts_push_out(const ContactFrame *frame, Particles *particles, int32_t 
             book.notes->count = 0;
             book.notes->resume = -1;
         }
-        push_block(frame, particles, block, 0, rows[block], &book);
+        push_block(frame, particles, block, 0, false, rows[block], &book);
     }
 }
 
@@ -497,6 +498,6 @@ void contacts_book_push(const ContactFrame *frame, Particles *particles)
                 sum->angular[a] += notes->sum[n].angular[a];
             }
         }
-        if (notes->resume >= 0) push_block(frame, particles, block, notes->resume, notes->row, &sums);
+        if (notes->resume >= 0) push_block(frame, particles, block, notes->resume, notes->held, notes->row, &sums);
     }
 }

@@ -656,13 +656,27 @@ static const Bound *bound_before(const ContactFrame *frame, int32_t block, int n
     return bound->thin ? NULL : bound;
 }
 
+static WetSite site_of(const ContactFrame *frame, const Bound *bound)
+{
+    WetSite site = {.frame = frame, .block = bound->block, .mass = mass_of(frame->grid, bound->node)};
+    memcpy(site.local, bound->local, sizeof site.local);
+    return site;
+}
+
+/* Else its matter sees other faces, see wet_side.c. */
+static bool stays_wet(const ContactFrame *frame, const Bound *bound)
+{
+    const WetSite site = site_of(frame, bound);
+    return bound->faces == 0 || !wet_is_dry(&site, &bound->face[0]);
+}
+
 static void bind_node(const ContactFrame *frame, const Near *near, Bound *bound, int node)
 {
     static const double REACH = 2.5; /* [cells]: parents of a node in a hollow lie so far off */
     Near some;
     const Near *meeting = field_meeting(near, contacts_node_groups(frame, bound->node), &some);
-    WetSite site = {.frame = frame, .near = meeting, .block = bound->block, .mass = mass_of(frame->grid, bound->node)};
-    memcpy(site.local, bound->local, sizeof site.local);
+    WetSite site = site_of(frame, bound);
+    site.near = meeting;
     contacts_node_position(frame, bound->block, node, site.point);
     bound->faces = wet_faces(&site, REACH, bound->face, &bound->thin, &bound->both);
     if (bound->faces > 0 && bound->face[0].distance >= 1.0) bound->faces = 0;
@@ -686,7 +700,7 @@ static void bind_blocks(void *context, int32_t first, int32_t end)
             *bound = before ? *before : fresh;
             bound->node = node;
             bound->block = block;
-            if (!before) {
+            if (!before || !stays_wet(frame, bound)) {
                 if (!looked) look_near_block(frame, block, &near);
                 looked = true;
                 *bound = fresh;

@@ -26,6 +26,26 @@ static void middle_of_matter(const WetSite *site, double middle[3])
     for (int a = 0; a < 3; a++) middle[a] = site->point[a] + (sum > 0.0 ? moment[a] / sum * site->near->cell_size : 0.0);
 }
 
+/* Below this share of a node's matter the space before a face counts as dry. */
+static const float DRY = 0.02f;
+
+/* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it. */
+static float wetness(const WetSite *site, const Face *face)
+{
+    const Grid *grid = site->frame->grid;
+    const float *node = grid->node.data;
+    float most = 0.0f;
+    for (double before = 0.6; before < 1.5; before += 0.8) {
+        int way[3];
+        for (int a = 0; a < 3; a++) way[a] = (int)field_whole((before - face->distance) * face->normal[a] + 0.5);
+        const int64_t there = grid_node_beside(grid, site->block, site->local, way);
+        if (there >= 0) most = fmaxf(most, node[there * K_NODE_WIDTH + 3]);
+    }
+    return most;
+}
+
+bool wet_is_dry(const WetSite *site, const Face *face) { return face->distance < WET_CLEAR && site->mass > 0.0f && wetness(site, face) <= DRY * site->mass; }
+
 /* Whether matter beyond an obstacle may reach the node. What is baked is at least as thick as its grid can show, and how thick it is a look through it tells. */
 static bool may_be_beyond(const WetSite *site)
 {
@@ -48,7 +68,7 @@ int wet_faces(const WetSite *site, double reach, Face face[FIELD_FACES], bool *t
     Face seen[FIELD_FACES], other;
     const int faces = field_faces(site->near, site->point, reach, face);
     *both = *thin = false;
-    if (faces == 0 || site->mass <= 0.0f || !may_be_beyond(site)) return faces;
+    if (faces == 0 || site->mass <= 0.0f || !(may_be_beyond(site) || wet_is_dry(site, &face[0]))) return faces;
     *thin = true;
     middle_of_matter(site, middle);
     const int count = field_faces_from(site->near, middle, site->point, reach, seen);

@@ -11,7 +11,7 @@ static const double WET_CLEAR = 0.4999;
 /* Where a node looks from. */
 typedef struct WetSite {
     const ContactFrame *frame;
-    const Near *near;
+    const Near *near; /* wet_is_dry() does not ask */
     int32_t block;
     int local[3]; /* of the node in its block */
     double point[3];
@@ -21,5 +21,8 @@ typedef struct WetSite {
 /* Those faces, the nearest first, and others within `reach` [cells]; returns their number. `thin`: matter beyond a wall may reach the node, so they
  * hang on where matter is. `both`: matter is on both sides; then the face is one, and the other side's stands behind it in face[1]. */
 int wet_faces(const WetSite *site, double reach, Face face[FIELD_FACES], bool *thin, bool *both);
+
+/* Whether the matter that reaches a node in an obstacle is elsewhere than before this face: near an edge, before the next one. */
+bool wet_is_dry(const WetSite *site, const Face *face);
 
 #endif
