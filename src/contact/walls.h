@@ -47,10 +47,9 @@ void walls_apply(const Walls *walls, const ContactFrame *frame, Pool *pool, bool
 /* The same as loops that are added to others. */
 void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool linear, const uint8_t *mark);
 
-/* The spline sees a sharp edge rounded, phi~ in place of phi. Where a pressure grows with depth, matter behind the rounded wall would bear it: to first order the
- * volume sum w(phi) (phi~ - phi), a quarter of a cell along the edge of a box. It is missing, so water rose along the edges for ever, and bodies were lifted as if they
- * were rounded. So the wall gives its weight to the nodes that are followed, as of matter that is as dense as there. Obstacles that move do not: with it
- * cubes of four cells and 0.6 of water's density, which lean and turn, sank. It is derived for edges on which an even pressure does no work. To be called before walls are obeyed.
+/* The spline sees a wall that turns farther off, phi~ in place of phi. Where a pressure grows with depth, matter between the wall and that image would bear it: to first
+ * order the volume sum w(phi) (phi~ - phi), a quarter of a cell along the edge of a box. It is missing, so water rose along the edges for ever, and bodies were lifted as if they
+ * were smaller. So the wall gives its weight to the nodes that are followed, as of matter that is as dense as there. To be called before walls are obeyed.
  * `gravity`: of the substep [cells]; `base`: 4 floats per node, changed as the nodes are. */
 void walls_weigh(const Walls *walls, const ContactFrame *frame, const float gravity[3], float *base);
 

@@ -81,23 +81,23 @@ static const Bound *bound_at(const Builder *b, int64_t node)
 /* A wall as the spline of a node sees it. */
 typedef struct Turn {
     double normal[3];
-    double bend, rounded; /* [cells]: by how much it sees the wall farther off, on curved walls and at sharp edges */
+    double bend, rounded; /* [cells]: by how much it sees the wall farther off: where that is smooth, and anywhere */
 } Turn;
 
 /* The normal is the slope of the distances at nodes, which turns at edges as slowly as the spline does. A normal that leaps there lets an even pressure do work: it
  * drove vortices out of each blunt edge. The spline's variance is 1/4 per axis, so it sees a curved wall off by an eighth of the distances' Laplacian: by so much
- * more is open, and by so much the profile of the normal motion is too high. At sharp edges that is the volume between the edge and its rounded image, see walls_weigh(). */
+ * more is open, and by so much the profile of the normal motion is too high. That is the volume between a wall and its image, see walls_weigh(). */
 static Turn turn_of(const Builder *b, const Bound *bound)
 {
     static const double LEAST_SLOPE = 0.5; /* by trial: a quarter of that of a plane; less is between two walls, which have no normal in common */
-    static const double SMOOTH = 0.89, OFF_PLANE = 0.25; /* by trial: cosine of the turn per cell, and way off the plane [cells]: of a ball with a radius of two cells */
+    static const double SMOOTH = 0.89; /* by trial: cosine of the turn per cell: of a ball with a radius of two cells */
     const Grid *grid = b->frame->grid;
     const Face *face = &bound->face[0];
     Turn turn = {.bend = 0.0, .rounded = 0.0};
     double slope[3] = {0}, length = 0.0;
     for (int a = 0; a < grid->dimension; a++) {
         double curve = 0.0;
-        bool smooth = true, sharp = false;
+        bool smooth = true;
         for (int side = -1; side <= 1; side += 2) {
             int way[3] = {0};
             way[a] = side;
@@ -107,14 +107,12 @@ static Turn turn_of(const Builder *b, const Bound *bound)
             if (beside && goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
             const bool across = bound->thin && distance < 0.0; /* its gap is that of the wall's other side */
             if (!beside && !across && other != GRID_NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
-            const bool turns = beside ? dot3(face->normal, beside->face[0].normal) <= SMOOTH : distance - face->distance - side * face->normal[a] > OFF_PLANE;
-            smooth = smooth && beside && !turns;
-            sharp = sharp || turns;
+            smooth = smooth && beside && dot3(face->normal, beside->face[0].normal) > SMOOTH;
             slope[a] += side * distance;
             curve += distance - face->distance;
         }
         if (smooth) turn.bend += curve / 8.0;
-        if (sharp) turn.rounded += curve / 8.0;
+        turn.rounded += curve / 8.0;
     }
     for (int a = 0; a < 3; a++) length += slope[a] * slope[a];
     length = sqrt(length);
@@ -477,7 +475,7 @@ static void add_follower(Builder *b, uint32_t index)
     node->own_mirror = 0.0f;
     node->follows = bound->both;
     node->open = bound->open;
-    const bool weighs = !bound->both && !sticks && count == 1 && !owner->moves; /* see walls_weigh() */
+    const bool weighs = !bound->both && !sticks && count == 1; /* see walls_weigh() */
     if (weighs) node->behind = (float)(profile[0].rounded * field_spline(bound->face[0].distance));
     if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
     node->normals = (uint16_t)count;

@@ -67,7 +67,7 @@ typedef struct WallNode {
     float normal[NORMALS_MAX][3];
     uint16_t obstacle[NORMALS_MAX];
     uint16_t normals;
-    float behind;      /* volume [cells^d] that its spline sees between the wall and the wall's rounded image, see walls_weigh() */
+    float behind;      /* volume [cells^d] that its spline sees between the wall and the wall's image, see walls_weigh() */
     bool follows;      /* its motion is that of others, or of a wall with matter on both sides, but for what `own` leaves it */
     uint8_t unilateral; /* of these flags */
     float coefficient; /* of friction, on the nearest wall */

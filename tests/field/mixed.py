@@ -11,6 +11,7 @@ from harness import G, SURFACE, Frame, Run, case, lattice, pool, rms, rows_of, t
 from pbmpm import Box, Elastic, Friction, Liquid, Plane, Region, RigidBody, Sand, Sphere, Visco
 
 FLOATS = "Archimedes, of a body that water and its weight press as Hooke says; 0.4 cells"
+SPIN = "what floats does not go on turning; half a radian per second is what is left of its rocking"
 
 
 def _wet_share(y: np.ndarray, level: float, spacing: float) -> float:
@@ -272,20 +273,17 @@ def rigid_box(run: Run, density: float, angle: float = 0.0) -> None:
             0,
             0.5,
             "rad/s",
-            why="a box that floats does not go on turning; half a radian per second is what is left of its rocking",
+            why=SPIN,
         )
         run.near("level", np.mean(levels), depth + side**2 * density / 1000 / width, SURFACE, cell, why="water keeps its volume")
 
 
-@case(light=dict(density=400), ice=dict(density=800))
-def rigid_cube(run: Run, density: float) -> None:
-    """A rigid cube of four cells, turned, is put on water of 8 cells and floats as deep as its density says, without turning on."""
-    cell, width, depth, side = 0.025, 0.4, 0.2, 0.1
-    with run.world(3, cell, domain=((0, 0, 0), (width, 0.5, width))) as world:
+def _floats_in_3d(run: Run, shape: Box | Sphere, density: float, depth: float, afloat: float) -> None:
+    """A rigid body is put on water: where its centre is after four seconds, off `afloat` above the undisturbed level, and how fast it turns."""
+    cell, width = 0.025, 0.4
+    with run.world(3, cell, domain=((0, 0, 0), (width, depth + 0.3, width))) as world:
         pool(world, Frame(3), (0, 0, 0), (width, depth, width), Liquid())
-        turned = (0.0, math.sin(0.25), 0.0, math.cos(0.25))
-        cube = Box((width / 2, depth + side / 2, width / 2), (side / 2,) * 3, rotation=turned)
-        body = RigidBody(world.add_collider(cube, friction=Friction.SLIP, kinematic=True, measures_impulse=True), density=density)
+        body = RigidBody(world.add_collider(shape, friction=Friction.SLIP, kinematic=True, measures_impulse=True), density=density)
         heights, turns = [], []
 
         def after(t: float) -> None:
@@ -294,10 +292,24 @@ def rigid_cube(run: Run, density: float) -> None:
                 turns.append(float(np.linalg.norm(body.angular_velocity)))
 
         run.steps(world, 6, before=lambda _: body.advance(run.dt), after=after)
-        share = density / 1000
-        level = depth + side**3 * share / width**2
-        run.near("height of its centre", np.mean(heights), level + (0.5 - share) * side, 0.8, cell, why="Archimedes; a fifth of its height")
-        run.check("mean spin", np.mean(turns), 0, 0.5, "rad/s", why="what floats does not go on turning; half a radian per second is what is left of its rocking")
+        run.near("height of its centre", np.mean(heights), depth + afloat, 0.8, cell, why="Archimedes; a fifth of a height of four cells")
+        run.check("mean spin", np.mean(turns), 0, 0.5, "rad/s", why=SPIN)
+
+
+@case(light=dict(density=400), ice=dict(density=800), deep=dict(density=917, depth=0.4))
+def rigid_cube(run: Run, density: float, depth: float = 0.2) -> None:
+    """A rigid cube of four cells, turned, is put on water of 8 or 16 cells and floats as deep as its density says, without turning on."""
+    width, side, share = 0.4, 0.1, density / 1000
+    cube = Box((width / 2, depth + side / 2, width / 2), (side / 2,) * 3, rotation=(0.0, math.sin(0.25), 0.0, math.cos(0.25)))
+    _floats_in_3d(run, cube, density, depth, side**3 * share / width**2 + (0.5 - share) * side)
+
+
+@case(half=dict())
+def rigid_ball(run: Run) -> None:
+    """A ball of six cells and half of water's density sinks in by half. Nothing can turn what is round and slips."""
+    width, depth, radius = 0.4, 0.3, 0.075
+    ball = Sphere((width / 2, depth + radius, width / 2), radius)
+    _floats_in_3d(run, ball, 500, depth, 2 / 3 * math.pi * radius**3 / width**2)
 
 
 @case(sand_heap=dict(what="sand"), water_drop=dict(what="water"), clay=dict(what="clay"), water_3d=dict(what="water", dimension=3))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pbmpm import Box, Friction, Liquid, World
+from pbmpm import Box, Friction, Liquid, Sphere, World
 
 CELL = 0.025
 RATE_HZ = 60
@@ -58,3 +58,21 @@ def test_water_rests_around_a_held_box() -> None:
             if step >= 3 * RATE_HZ:
                 squares.append(np.mean(np.sum(np.square(world.velocities.array()), axis=1)))
         assert np.sqrt(np.mean(squares)) < 0.005  # as a pool of 12 cells between walls of the domain may
+
+
+@pytest.mark.parametrize("shape", [Box([0.15] * 3, [0.05] * 3), Box([0.1575] * 3, [0.05] * 3), Sphere([0.15] * 3, 0.05), Sphere([0.1625] * 3, 0.075)])
+def test_lift_of_what_the_host_moves(shape: Box | Sphere) -> None:
+    """What the host may move is lifted as what stands. Without the volume that the spline does not see, boxes of four cells lose 13 to 15 % in 3D, these balls 6 to 8 %.
+    With it a box lacks what its corners have beside their edges, and a ball what its curvature does to second order."""
+    width, depth = 12, 12
+    with tank(3, width, depth) as world:
+        body = world.add_collider(shape, kinematic=True, measures_impulse=True, friction=Friction.SLIP)
+        pour(world, width, depth)
+        lifts = []
+        for step in range(2 * RATE_HZ):
+            body.move(shape.position)
+            world.step(1 / RATE_HZ)
+            if step >= RATE_HZ:
+                lifts.append(body.impulse.linear[1] * RATE_HZ)
+        volume, second_order = (8 * np.prod(shape.half_extents), 0.08) if isinstance(shape, Box) else (4 / 3 * np.pi * shape.radius**3, 0.05)
+        assert np.mean(lifts) == pytest.approx(1000 * GRAVITY * volume, rel=second_order)
