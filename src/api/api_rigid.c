@@ -103,13 +103,24 @@ static pbmpm_result find_push(World *world, pbmpm_collider_id id, Collider *coll
     return PBMPM_OK;
 }
 
+/* A wall pushes and does not pull: a body that matter lifts off it is not held. */
+static bool leaves(const FreeBody *body, const RigidPush *push, const double unit[6], double dt)
+{
+    double impulse[6], change[6], along = 0.0;
+    for (int a = 0; a < 6; a++) impulse[a] = dt * body->push[a];
+    free_body_yields(body, impulse, change);
+    for (int a = 0; a < 6; a++) along += unit[a] * (change[a] + push->later[a]);
+    return push->walled && along <= 0.0;
+}
+
 /* What the world has to know of it during the step. */
-static void keep_body(FreeBody *body, const RigidPush *push, const RigidStops *stops)
+static void keep_body(FreeBody *body, const RigidPush *push, const RigidStops *stops, double dt)
 {
     memcpy(body->delayed, push->later, sizeof push->later);
     memcpy(body->expected, push->expected, sizeof push->expected);
     memcpy(body->open, body->way, sizeof body->open);
-    for (int k = 0; k < stops->count; k++) free_body_hold(body, stops->unit[k]);
+    for (int k = 0; k < stops->count; k++)
+        if (!leaves(body, push, stops->unit[k], dt)) free_body_hold(body, stops->unit[k]);
     body->yields = !push->walled;
     if (stops->count == 0) memcpy(body->expects, push->expects, sizeof body->expects);
     for (int k = 0; k < body->ways && stops->count > 0; k++) { /* what walls stopped of it they took */
@@ -171,7 +182,7 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     send(found, &next);
     *found->body = rigid_free_body(&own, &next, push.gravity, w->def.dimension);
     note_begin(found->body, begin, w->settings.substeps);
-    keep_body(found->body, &push, &stops);
+    keep_body(found->body, &push, &stops, (double)dt);
     WRITE(pbmpm_rigid_state, state, &next);
     LET_GO(PBMPM_OK);
 }

@@ -41,21 +41,25 @@ void obstacle_motion(const Obstacle *o, const double point[3], double cell_size,
     for (int r = 0; r < o->start.dimension; r++) out[r] = (float)(moved[r] * scale);
 }
 
-void free_body_yields(const FreeBody *body, const double push[6], double change[6])
+static void yields_along(const double way[][6], int ways, const double push[6], double change[6])
 {
     memset(change, 0, 6 * sizeof *change);
-    for (int k = 0; k < body->ways; k++) {
+    for (int k = 0; k < ways; k++) {
         double along = 0.0;
-        for (int a = 0; a < 6; a++) along += body->way[k][a] * push[a];
-        for (int a = 0; a < 6; a++) change[a] += along * body->way[k][a];
+        for (int a = 0; a < 6; a++) along += way[k][a] * push[a];
+        for (int a = 0; a < 6; a++) change[a] += along * way[k][a];
     }
 }
+
+void free_body_yields(const FreeBody *body, const double push[6], double change[6]) { yields_along(body->way, body->ways, push, change); }
+
+void free_body_yields_openly(const FreeBody *body, const double push[6], double change[6]) { yields_along(body->open, body->ways, push, change); }
 
 /* In the coordinates of the ways, where the inertia is 1: open -= (open h) h^T, h the unit vector along open^T unit. */
 void free_body_hold(FreeBody *body, const double unit[6])
 {
     static const double HELD = 1e-12; /* share of its square that is left of a direction which is held already: rounding */
-    double h[FREE_BODY_WAYS] = {0}, moved[6] = {0}, size2 = 0.0, whole2 = 0.0;
+    double h[FREE_BODY_WAYS] = {0}, moved[6] = {0}, size2 = 0.0, whole2 = 0.0, late = 0.0;
     for (int k = 0; k < body->ways; k++) {
         double whole = 0.0;
         for (int a = 0; a < 6; a++) {
@@ -70,6 +74,8 @@ void free_body_hold(FreeBody *body, const double unit[6])
         for (int a = 0; a < 6; a++) moved[a] += body->open[k][a] * h[k] / size2;
     for (int k = 0; k < body->ways; k++)
         for (int a = 0; a < 6; a++) body->open[k][a] -= moved[a] * h[k];
+    for (int a = 0; a < 6; a++) late += unit[a] * body->delayed[a];
+    for (int a = 0; a < 6; a++) body->delayed[a] -= late * moved[a];
 }
 
 /* By the angle whose half has the turn's half for its tangent. */

@@ -32,7 +32,10 @@ typedef struct FreeBody {
 /* B B^T times an impulse and its moment. */
 void free_body_yields(const FreeBody *body, const double push[6], double change[6]);
 
-/* Takes out of `open` what a wall holds: motion along `unit`, outwards, with its moment about the centre. */
+/* The same where walls of the domain hold it: of `open`. */
+void free_body_yields_openly(const FreeBody *body, const double push[6], double change[6]);
+
+/* Takes out of `open` and `delayed` what a wall holds: motion along `unit`, outwards, with its moment about the centre. */
 void free_body_hold(FreeBody *body, const double unit[6]);
 
 /* Moves a solid by a way and a turn [rad] about a centre. */

@@ -25,13 +25,13 @@ static void grip_push(const WallGrip *grip, Four push, double sum[6])
     }
 }
 
-/* w: to gravity, the host, what came late, and what it yielded to in the substeps before. */
+/* w: to gravity, the host, what came late, and what it yielded to in the substeps before. Not what walls of the domain hold: matter followed the fall of a stone that lay on the floor. */
 static void find_before(const ContactFrame *frame, const Obstacle *o, double motion[6])
 {
     const FreeBody *body = o->body;
     double impulse[6];
     for (int a = 0; a < 6; a++) impulse[a] = body->push[a] * frame->substep->dt * (o->part + 1);
-    free_body_yields(body, impulse, motion);
+    free_body_yields_openly(body, impulse, motion);
     for (int a = 0; a < 6; a++) {
         motion[a] += body->yielded[a] + body->delayed[a] * (o->part + 1) / o->parts;
         motion[a] *= a < 3 ? frame->substep->to_cells : frame->substep->dt;
@@ -54,7 +54,7 @@ bool wall_bodies_list(Walls *walls, const ContactFrame *frame, Memory *memory)
         WallBody *body = (WallBody *)walls->body.data + walls->bodies++;
         *body = (WallBody){.free = o->body, .obstacle = i};
         for (int k = 0; k < o->body->ways; k++)
-            for (int a = 0; a < 6; a++) body->way[k][a] = (a < 3 ? to_move : to_turn) * o->body->way[k][a];
+            for (int a = 0; a < 6; a++) body->way[k][a] = (a < 3 ? to_move : to_turn) * o->body->open[k][a];
         find_before(frame, o, body->before);
     }
     return true;

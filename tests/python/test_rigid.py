@@ -324,3 +324,27 @@ def test_a_box_sinks_in_as_a_plate_does_that_pushes_as_much() -> None:
     assert _pushed(deep)[1] == pytest.approx(1, abs=0.02)
     twice = _pushed(None, 2000.0)[0]
     assert twice - deep == pytest.approx(1000 * 0.2 * 9.81 / 1e5 * 0.4, rel=0.3)  # the edges bulge: the plate finds it a fourth softer, too
+
+
+def _stir_beside_a_stone(falls: bool) -> float:
+    """The water's rms speed beside a box on a pool's floor: one that stands there, or a stone that fell there."""
+    cell, side, width, depth = 0.025, 0.15, 0.6, 0.3
+    squares = []
+    with pbmpm.World(2, cell, gravity=(0, -9.81), domain=((0, 0), (width, 0.8))) as world:
+        place = (width / 2 + 0.3 * cell, side / 2 + (0.5 * cell if falls else 0))
+        box = world.add_collider(pbmpm.Box(place, (side / 2, side / 2)), friction=pbmpm.Friction.SLIP, kinematic=falls, measures_impulse=falls)
+        world.fill(pbmpm.Box((width / 2, depth / 2), (width / 2, depth / 2)), world.add_material(pbmpm.Liquid()))
+        stone = pbmpm.RigidBody(box, density=1500) if falls else None
+        for step in range(600):
+            if stone:
+                stone.advance(DT)
+            world.step(DT)
+            if step >= 300:
+                squares.append(np.mean(np.sum(np.square(world.velocities.array()), axis=1)))
+        assert not stone or stone.position[1] == pytest.approx(side / 2, abs=0.1 * cell)
+    return math.sqrt(np.mean(squares))
+
+
+def test_a_stone_on_the_floor_stirs_no_more_than_a_box_that_stands_there() -> None:
+    """Matter followed the fall that the floor had stopped: water stirred at 0.1 to 0.3 m/s for ever, and pushed the stone down with nine times its weight."""
+    assert _stir_beside_a_stone(falls=True) < 2 * _stir_beside_a_stone(falls=False)
