@@ -1,8 +1,8 @@
 /* Rigid bodies among the walls: they yield to matter while it is solved for.
  *
  * What matter does to a body and the body to matter happens at once. With z the body's motion as its obstacle has it, w what gravity and earlier impulses make of it
- * in this substep, C its motion at the nodes that follow it, and K = B B^T what it yields to impulses where walls of
- * the domain hold it, its own part y of the motion
+ * in this substep, C its motion at the nodes that follow it, and K = B B^T what it yields to impulses beside what
+ * walls of the domain hold, its own part y of the motion
  *     c0 = C (z + w + y),   K^-1 y = C^T (p - m u)
  * is one of the unknowns of walls.h. With u~ eliminated
  *     K^-1 y = G - S y,   y = B (1 + B^T S B)^-1 B^T G,   S = C^T m C - C^T m E M^-1 E^T m C
