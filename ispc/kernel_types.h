@@ -152,6 +152,7 @@ struct KernelGrid {
 struct KernelDual {
     K_PTR(float) pressure; /* liquid: the multiplier; between substeps the pressure [Pa] */
     K_PTR(float) pressure_old; /* liquid: the multiplier one iteration before */
+    K_PTR(float) second_order; /* liquid: what strain does beyond its trace, q of next_pressure(); null: nothing. All rows that iterate are written first, see dual.c */
     K_PTR(float) stress[6]; /* elastic: the multiplier, upper triangle row by row */
     K_PTR(float) stress_old[6];
     K_PTR(float) node_push; /* per node block: sum m w S (x_i - x_p) of the last iteration */
@@ -193,7 +194,7 @@ struct KernelCells {
     K_PTR(float) mass; /* sum h l m */
     K_PTR(float) growth; /* what the mean of tr D is to become */
     K_PTR(float) solid_growth; /* share of it that solids ask for; null unless they take part in the guess */
-    K_PTR(float) second_order; /* what sand's strain does beyond its trace, see granular.isph; null without sand */
+    K_PTR(float) second_order; /* means of what the strain of liquid and sand does beyond its trace, see granular.isph; null where it is not asked for */
     K_PTR(float) softness; /* mean of 1 / (L J^2) */
     K_PTR(float) pressure;
     K_PTR(float) pressure_old;

@@ -42,7 +42,7 @@ Dense dense_of_particles(const Scene *scene, const RefGrid *base)
     for (int k = 0; k < o.rows; k++) {
         const RefParticle p = scene_particle(scene, (uint32_t)k);
         o.W[k] = 0.25 * p.mass / softness(&p);
-        o.b[k] = 1.0 / p.volume_ratio - 1.0;
+        o.b[k] = 1.0 / p.volume_ratio - 1.0 - (double)scene->world->args.dual.second_order[k];
         add_trace(&o, k, &p, 1.0);
     }
     return o;

@@ -19,10 +19,10 @@ static double linear_root(double at_0, double at_1) { return fmin(fmax(0.0, at_0
 
 /* Divided by L J^2, so that it also holds for an infinite L: s / (L J^2) + tr D + d (s - y) / w - growth. The matter grows by no more than the bound: the
  * pressure is no more than one that asks for just that. */
-double reference_pressure(int n, const KernelMaterial *material, double ratio, double trace, double y)
+double reference_pressure(int n, const KernelMaterial *material, double ratio, double second, double trace, double y)
 {
     const double relaxation = (double)material->relaxation, soft = (double)material->inverse_stiffness / (ratio * ratio);
-    const double own = reference_cell_pressure(n, relaxation, 1.0 / ratio - 1.0, soft, trace, y);
+    const double own = reference_cell_pressure(n, relaxation, 1.0 / ratio - 1.0 - second, soft, trace, y);
     return fmin(own, reference_cell_pressure(n, relaxation, REF_GROWTH_MAX, 0.0, trace, y));
 }
 
@@ -260,10 +260,10 @@ RefCentres reference_centres(int n, const RefParticle *p)
 
 /* s' = y + (growth - tr D - y soft) / (d/w + soft). The terms of the numerator are rounded a few times each, 1/J - 1 with an error of
  * 2 U / J; the denominator is a sum of positive numbers. Taking the larger of two numbers enlarges no difference. */
-double bound_pressure(int n, const KernelMaterial *material, double ratio, double trace, double y, double trace_error)
+double bound_pressure(int n, const KernelMaterial *material, double ratio, double second, double trace, double y, double trace_error)
 {
     const double soft = (double)material->inverse_stiffness / (ratio * ratio), below = n / (double)material->relaxation + soft;
-    const double terms = 1.0 / ratio + 1.0 + fabs(trace) + fabs(y) * soft;
+    const double terms = 1.0 / ratio + 1.0 + fabs(second) + fabs(trace) + fabs(y) * soft;
     return (trace_error + 8.0 * UNIT_ROUNDOFF * terms) / below + 3.0 * UNIT_ROUNDOFF * fabs(y) + FLUSHED;
 }
 

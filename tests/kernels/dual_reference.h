@@ -21,7 +21,7 @@ static const double REF_CLOSING_VISCOSITY = 4.0;
 double reference_scale(const RefStep *step, double density);
 
 /* S' of a liquid: the root of s + L J (J (1 + tr D + d (s - y)/w) - 1) = 0, or 0 where that is tension. */
-double reference_pressure(int dimension, const KernelMaterial *material, double ratio, double trace, double y);
+double reference_pressure(int dimension, const KernelMaterial *material, double ratio, double second, double trace, double y);
 
 /* D with its symmetric part no longer than REF_SUBSTEP_STRAIN: where the dual solver linearises. */
 void reference_near(int dimension, const double D[9], double near[9]);
@@ -60,7 +60,7 @@ double reference_cell_pressure(int dimension, double relaxation, double growth, 
 
 /* ---- Bounds of the kernels' errors; see bounds.h ---- */
 
-double bound_pressure(int dimension, const KernelMaterial *material, double ratio, double trace, double y, double trace_error);
+double bound_pressure(int dimension, const KernelMaterial *material, double ratio, double second, double trace, double y, double trace_error);
 
 /* `error` is that of D's entries, `turned` that of R in the Frobenius norm. */
 double bound_stress(int dimension, const KernelMaterial *material, const double F[9], const double D[9], const double Y[9], double error,

@@ -43,6 +43,7 @@ static void bind(DualStage *stage)
                              &a->cells.pressure_old, &a->cells.change2, &a->cells.uphill};
     for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) *cells[i] = memory[used++] = filled(nodes, NAN);
     stage->strain = memory[used++] = filled(nodes, NAN);
+    stage->second_order = memory[used++] = filled(rows, NAN);
     a->cells.settle = 1.0f;
     a->cells.elastic_guesses = 1;
     a->cells.relaxation = 1.3f;
@@ -270,16 +271,16 @@ void dual_check_displacements(DualStage *stage, double momentum)
 
 /* ---- Iteration ---- */
 
-/* Compares one particle's new multiplier with the reference, given the nodes and Y before. */
-static void check_step(const RefGrid *nodes, const RefParticle *p, const double Y[9], double Y_error, const double S[9], long index)
+/* Compares one particle's new multiplier with the reference, given the nodes, what its strain does beyond its trace, and Y before. */
+static void check_step(const RefGrid *nodes, const RefParticle *p, double second, const double Y[9], double Y_error, const double S[9], long index)
 {
     const int n = nodes->dimension;
     const BoundParticle error = bound_gather(nodes, p);
     double d[3], D[9], expected[9] = {0}, next[9] = {0};
     reference_gather(nodes, p, d, D);
     if (p->material.kind == K_LIQUID) {
-        const double trace = matrix_trace(n, D), s = reference_pressure(n, &p->material, p->volume_ratio, trace, Y[0]);
-        const double bound = bound_pressure(n, &p->material, p->volume_ratio, trace, Y[0], n * error.D) + Y_error;
+        const double trace = matrix_trace(n, D), s = reference_pressure(n, &p->material, p->volume_ratio, second, trace, Y[0]);
+        const double bound = bound_pressure(n, &p->material, p->volume_ratio, second, trace, Y[0], n * error.D) + Y_error;
         check_near(s, S[0], bound, "pressure", index);
         return;
     }
@@ -325,6 +326,7 @@ void dual_check_multipliers(DualStage *stage, Kernel *kernel, bool liquids)
     Scene *scene = &stage->scene;
     const World *world = scene->world;
     const uint32_t *begin = world->grid.block_begin.data;
+    const float *second_order = world->args.dual.second_order;
     RefGrid nodes = scene_nodes(scene);
     double *now = keep(stage, dual_multiplier), *Y = keep(stage, dual_extrapolated);
     scene_run_particles(scene, kernel);
@@ -336,7 +338,7 @@ void dual_check_multipliers(DualStage *stage, Kernel *kernel, bool liquids)
             if (p.material.kind == K_LIQUID && !liquids) continue;
             dual_multiplier(stage, i, S);
             for (int k = 0; k < 9; k++) Y_error = fmax(Y_error, 4.0 * UNIT_ROUNDOFF * (fabs(now[9 * i + k]) + fabs(Y[9 * i + k])));
-            check_step(&nodes, &p, Y + 9 * i, Y_error, S, (long)i);
+            check_step(&nodes, &p, second_order ? (double)second_order[i] : 0.0, Y + 9 * i, Y_error, S, (long)i);
             tally_add(&tally, p.mass, S, Y + 9 * i, now + 9 * i);
         }
         check_near(tally.change2, (double)world->args.dual.change2[block], tally.change2_error + FLUSHED, "change of a block", block);

@@ -5,7 +5,7 @@
 #include "dual_reference.h"
 #include "scene.h"
 
-enum { DUAL_ARRAYS = 24 };
+enum { DUAL_ARRAYS = 26 };
 
 /* A scene bound to arrays of the test's own, filled with what must not be read: NaN. */
 typedef struct DualStage {
@@ -13,6 +13,7 @@ typedef struct DualStage {
     float *memory[DUAL_ARRAYS];
     RefGrid base; /* the predictor */
     float *strain; /* for args.cells.solid_growth, which is null: solids take no part in the guess */
+    float *second_order; /* for args.dual.second_order, which is null: what strain does beyond its trace is not asked for */
 } DualStage;
 
 /* Opens a scene, sets its particles' pressures [Pa] at random and runs the kernels up to the predictor. */
@@ -54,7 +55,7 @@ void cells_check_carry(DualStage *stage, float fine);
 void cells_check_add(DualStage *stage, Random *random);
 void cells_check_trace(DualStage *stage);
 void cells_check_guess_trace(DualStage *stage);
-void cells_check_second_order(DualStage *stage);
+void cells_check_second_order(DualStage *stage); /* leaves it bound, for the iterations */
 void cells_check_update(DualStage *stage);
 
 /* Node displacements after a push: the predictor and the scatter of all extrapolated multipliers, with nothing kept in between. */

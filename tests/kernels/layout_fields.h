@@ -13,7 +13,7 @@
     FIELD(grid.neighbour) FIELD(grid.tile) FIELD(grid.tile_volume) FIELD(grid.node) FIELD(grid.node_base)                     \
     FIELD(grid.node_before) FIELD(grid.node_volume) FIELD(grid.node_density) FIELD(grid.node_reach) FIELD(grid.edged)         \
     FIELD(grid.clamped) FIELD(grid.moved) FIELD(grid.lost) FIELD(grid.travel) FIELD(grid.drift)                               \
-    FIELD(grid.particle_blocks) FIELD(dual.pressure) FIELD(dual.pressure_old) FIELD(dual.stress) FIELD(dual.stress_old)       \
+    FIELD(grid.particle_blocks) FIELD(dual.pressure) FIELD(dual.pressure_old) FIELD(dual.second_order) FIELD(dual.stress) FIELD(dual.stress_old)       \
     FIELD(dual.node_push) FIELD(dual.change2) FIELD(dual.uphill) FIELD(dual.affine_kept) FIELD(dual.stage_last)               \
     FIELD(dual.stage_before) FIELD(dual.stage_change) FIELD(dual.momentum) FIELD(dual.fine_carried)                           \
     FIELD(dual.grains_carried) FIELD(dual.crushed_carried) FIELD(dual.growth_max) FIELD(primal.node_force)                    \

@@ -11,7 +11,7 @@ typedef void RotateAll(const float *f, float *rotation, int32_t count);
 typedef void DecomposeAll(const float *f, float *u, float *s, float *v, int32_t count);
 /* The proximal steps of the dual solver. `f`, `d`, `y`, `s`: matrices as above. */
 typedef void StressAll(const KernelMaterial *material, const float *f, const float *d, const float *y, float *s, int32_t count);
-typedef void PressureAll(const KernelMaterial *material, const float *ratio, const float *trace, const float *y, float *s, int32_t count);
+typedef void PressureAll(const KernelMaterial *material, const float *ratio, const float *second, const float *trace, const float *y, float *s, int32_t count);
 /* Elastic energies and stresses at the displacement gradients `d`: matrices as above. */
 typedef void EnergyAll(const KernelMaterial *material, const float *f, const float *d, float *stress, float *energy, int32_t count);
 /* The energies of what the displacement gradients `d` close, and their stresses: matrices as above. */

@@ -11,9 +11,9 @@ export void stress_all3(const uniform struct KernelMaterial *uniform material, c
                         const uniform float y[], uniform float s[], uniform int count) {
     stress_all(material, f, d, y, s, count);
 }
-export void pressure_all3(const uniform struct KernelMaterial *uniform material, const uniform float ratio[], const uniform float trace[],
-                          const uniform float y[], uniform float s[], uniform int count) {
-    pressure_all(material, ratio, trace, y, s, count);
+export void pressure_all3(const uniform struct KernelMaterial *uniform material, const uniform float ratio[], const uniform float second[],
+                          const uniform float trace[], const uniform float y[], uniform float s[], uniform int count) {
+    pressure_all(material, ratio, second, trace, y, s, count);
 }
 export void energy_all3(const uniform struct KernelMaterial *uniform material, const uniform float f[], const uniform float d[],
                         uniform float stress[], uniform float energy[], uniform int count) {

@@ -57,6 +57,29 @@ static void check_rounds(DualStage *stage)
     stages_check_integrate(&stage->scene);
 }
 
+/* As after a guess, which has found what strain does beyond its trace. */
+static void check_rounds_of_second_order(DualStage *stage)
+{
+    dual_check_begin(stage);
+    dual_check_push(stage);
+    cells_check_second_order(stage);
+    for (size_t k = 0; k < sizeof momenta / sizeof *momenta; k++) {
+        dual_check_iterate(stage);
+        stage->scene.world->args.dual.momentum = (float)momenta[k];
+        dual_check_push(stage);
+    }
+}
+
+static void test_second_order(void)
+{
+    SceneSpec spec = mixed_scene("second order");
+    dual_check_spec(&spec, 2, check_rounds_of_second_order);
+    spec.gradient = 0.6;
+    dual_check_spec(&spec, 1, check_rounds_of_second_order);
+    spec_crowded(&spec);
+    dual_check_spec(&spec, 1, check_rounds_of_second_order);
+}
+
 static void test_mixed_materials(void)
 {
     const SceneSpec spec = mixed_scene("dual: mixed materials");
@@ -410,10 +433,10 @@ static void test_the_stress_is_that_of_the_energy(void)
     check_report("fixed point");
 }
 
-/* J over all of its range, expansion and compression, incompressible and soft. */
+/* J over all of its range, expansion and compression, incompressible and soft, and all that strain may do beyond its trace. */
 static void test_pressure(void)
 {
-    static float ratio[BATCH], trace[BATCH], y[BATCH], s[BATCH];
+    static float ratio[BATCH], second[BATCH], trace[BATCH], y[BATCH], s[BATCH];
     static const float stiffness[] = {0.0f, 1e-4f, 0.3f, 1.0f, 1e3f};
     for (int dimension = 2; dimension <= 3; dimension++)
         EACH_ISA(isa)
@@ -424,16 +447,17 @@ static void test_pressure(void)
                 const KernelMaterial material = {.relaxation = 0.3f + 0.16f * (float)k, .inverse_stiffness = stiffness[k % 5]};
                 for (int i = 0; i < BATCH; i++) {
                     ratio[i] = (float)random_in(&random, 0.05, 1.2);
+                    second[i] = i % 4 ? (float)random_in(&random, -REF_GROWTH_MAX, REF_GROWTH_MAX) : 0.0f;
                     trace[i] = (float)random_in(&random, -1.0, 1.0);
                     y[i] = (float)random_in(&random, -0.2, 1.0);
                 }
                 const uint32_t mode = float_mode_enter();
-                probes_for(isa, dimension)->pressure_all(&material, ratio, trace, y, s, BATCH);
+                probes_for(isa, dimension)->pressure_all(&material, ratio, second, trace, y, s, BATCH);
                 float_mode_leave(mode);
                 for (int i = 0; i < BATCH; i++) {
-                    const double r = (double)ratio[i], t = (double)trace[i], given = (double)y[i];
-                    check_near(reference_pressure(dimension, &material, r, t, given), (double)s[i],
-                               bound_pressure(dimension, &material, r, t, given, 0.0), "pressure", i);
+                    const double r = (double)ratio[i], q = (double)second[i], t = (double)trace[i], given = (double)y[i];
+                    check_near(reference_pressure(dimension, &material, r, q, t, given), (double)s[i],
+                               bound_pressure(dimension, &material, r, q, t, given, 0.0), "pressure", i);
                 }
             }
         }
@@ -444,6 +468,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_mixed_materials);
+    RUN_TEST(test_second_order);
     RUN_TEST(test_single_particles_far_apart);
     RUN_TEST(test_crowded_cells);
     RUN_TEST(test_all_densities);

@@ -90,7 +90,8 @@ static bool guesses_solids(const World *world)
     return guess_iterations(world) > 0 && !in_cells(world) && (shares_world(world) || solver_holds_sand(world));
 }
 
-static bool guesses_sand(const World *world) { return guesses_solids(world) && solver_holds_sand(world); }
+/* Whether what strain does beyond its trace is asked for, see ispc/granular.isph. It is found where the guess begins. In the joint solver the sketch has moved matter by then. */
+static bool finds_second_order(const World *world) { return guess_iterations(world) > 0 && !in_cells(world) && !joint_is_chosen(world); }
 
 static bool is_bounded(const World *world) { return solver_holds_sand(world) && !joint_is_chosen(world); }
 
@@ -109,7 +110,7 @@ pbmpm_result dual_prepare(World *world)
              array_reserve(&world->memory, &dual->cell_change2, blocks, sizeof(float)) &&
              array_reserve(&world->memory, &dual->cell_uphill, blocks, sizeof(float));
     if (ok && guesses_solids(world)) ok = array_reserve(&world->memory, &dual->cell_solid_growth, nodes, sizeof(float));
-    if (ok && guesses_sand(world)) ok = array_reserve(&world->memory, &dual->cell_second_order, nodes, sizeof(float));
+    if (ok && finds_second_order(world)) ok = array_reserve(&world->memory, &dual->cell_second_order, nodes, sizeof(float));
     if (ok && takes_rounds(world)) ok = rounds_reserve(world);
     ok = ok && dual_error_prepare(world) && eddy_damping_prepare(world);
     if (ok && measures_gains(world)) ok = dual_gains_prepare(world);
@@ -158,7 +159,7 @@ static void bind_cells(World *world)
     a->cells.pressure_old = cells + 4 * nodes;
     a->cells.solid_growth = guesses_solids(world) ? world->dual.cell_solid_growth.data : NULL;
     /* Found as a mean of cells, as traces are: see guess(). */
-    a->cells.second_order = a->cells.trace = guesses_sand(world) ? world->dual.cell_second_order.data : NULL;
+    a->cells.second_order = a->cells.trace = finds_second_order(world) ? world->dual.cell_second_order.data : NULL;
     a->cells.settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->substep) : 1.0f;
     a->cells.elastic_guesses = shares_world(world);
     a->cells.change2 = world->dual.cell_change2.data;
@@ -181,13 +182,15 @@ static float growth_max(const World *world)
 }
 
 /* The multipliers of elastic particles and what an iteration changed need memory for this substep only: the spare arrays, which
- * nobody uses between the sort and the next. */
+ * nobody uses between the sort and the next. What liquid keeps for the iterations shares one with stresses, of which its rows have none. guess() writes
+ * it for all rows of liquid that iterate, rounds included, and none is read without one: solids by themselves, sleepers and the still have no iterations. */
 static void bind(World *world)
 {
     KernelArgs *a = &world->args;
     Particles *p = &world->particles;
     a->dual.pressure = p->pressure;
     a->dual.pressure_old = particles_spare(p, CLASS_SCALAR, 0);
+    a->dual.second_order = finds_second_order(world) ? particles_spare(p, CLASS_MATRIX, 0) : NULL;
     a->dual.node_push = world->dual.node_push.data;
     a->dual.change2 = world->dual.change2.data;
     a->dual.uphill = world->dual.uphill.data;
