@@ -136,6 +136,10 @@ static bool parts_matter(const World *world, const Collider *collider)
     return found[0] && found[1];
 }
 
+/* How thick [cells] an obstacle has to be. Splines reach into a box from both sides: water rests beside one of three cells, and stirs at 0.3 m/s beside one of two. What is
+ * round parts nothing: water flows round it. */
+static double thickness_needed(const Collider *collider) { return collider->shape.kind == PBMPM_BOX ? 2.0 * NODE_REACH : 1.0; }
+
 void advise_collider_too_thin(Adviser *adviser)
 {
     const World *world = adviser->world;
@@ -143,11 +147,11 @@ void advise_collider_too_thin(Adviser *adviser)
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         if (!world_feels(world, collider)) continue;
-        const double cells = thickness_of(collider, world->def.dimension) / cell;
-        if (cells >= 1.0 - 1e-5 || !parts_matter(world, collider)) continue;
-        pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_THIN, .collider = {c, collider->generation}, .figure = (float)cells, .bound = 1.0f,
-                               .text = "an obstacle is thinner than a cell, with matter on both sides: one side feels the other, and water there stirs"};
-        adviser_by_value(PBMPM_CHANGE_COLLIDER, cell, 0.0, &advice);
+        const double cells = thickness_of(collider, world->def.dimension) / cell, needed = thickness_needed(collider);
+        if (cells >= needed - 1e-5 || !parts_matter(world, collider)) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_THIN, .collider = {c, collider->generation}, .figure = (float)cells, .bound = (float)needed,
+                               .text = "an obstacle is too thin to part matter: one side feels the other, and water there stirs"};
+        adviser_by_value(PBMPM_CHANGE_COLLIDER, needed * cell, 0.0, &advice);
         adviser_give(adviser, advice);
     }
 }

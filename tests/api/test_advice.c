@@ -257,6 +257,8 @@ static void test_obstacles(void)
     const pbmpm_advice *advice = expect(world, PBMPM_ADVICE_COLLIDER_TOO_THIN);
     TEST_ASSERT_EQUAL_UINT32(thin.generation, advice->collider.generation);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.4f, advice->figure);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 3.0f, advice->bound);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.15f, advice->value);
     expect_none(world, PBMPM_ADVICE_COLLIDER_TOO_FAST);
     OK(pbmpm_collider_move(world, fast, (const float[3]){0.55f, 0.9f, 0}, NULL));
     advice = expect(world, PBMPM_ADVICE_COLLIDER_TOO_FAST);

@@ -138,7 +138,7 @@ def test_the_command_says_it_with_the_names_of_the_scene(tmp_path: Path) -> None
     assert done.returncode == 0, done.stderr
     said = [line for line in done.stderr.splitlines() if line.startswith("advice: ")]
     assert any(line.startswith("advice: jam: viscosity does nothing") for line in said)
-    assert any(line.startswith("advice: colliders[0]: an obstacle is thinner") for line in said)
+    assert any(line.startswith("advice: colliders[0]: an obstacle is too thin") for line in said)
     assert any(line.startswith("advice: colliders[1]: an obstacle moves") for line in said)
     report = json.loads(done.stdout)
     assert {(row["code"], row["of"]) for row in report["advice"]} == {
