@@ -22,8 +22,8 @@ from types import ModuleType
 from typing import Any
 
 CODES = {
-    "volume": {"POOL_TOO_DEEP", "VOLUME_LOST", "COLLIDER_TOO_THIN", "STRAIN_CLAMPED"},
-    "leak": {"COLLIDER_TOO_THIN", "COLLIDER_TOO_FAST", "STEP_TOO_LONG", "VOLUME_LOST", "POOL_TOO_DEEP"},
+    "volume": {"POOL_TOO_DEEP", "VOLUME_LOST", "STRAIN_CLAMPED"},
+    "leak": {"COLLIDER_TOO_FAST", "STEP_TOO_LONG", "VOLUME_LOST", "POOL_TOO_DEEP"},
     "jet": {"NOT_SOLVED", "STEP_TOO_LONG"},
     "calm": {"POOL_STIRS", "POOL_TOO_DEEP", "COLLIDER_TOO_THIN", "COLLIDER_TOO_FAST"},
     "energy": {"POOL_STIRS", "POOL_TOO_DEEP"},

@@ -56,7 +56,15 @@ static const double LEAST_TURN = 0.31;
 /* Whether two faces are nearly back to back. */
 static bool opposed(const Face *a, const Face *b) { return dot3(a->normal, b->normal) < -0.95; }
 
-/* Whether the wall at one node goes on at another: with a slight turn, or round an outer edge. Where it meets another in an inner edge, nodes have the normals of both. */
+/* Whether two faces are of one wall: their planes count as one, and the way from foot to foot leads along them. Of a stair and the wall behind it that leads off. */
+static bool one_wall(const Face *a, const Face *b)
+{
+    double way[3];
+    for (int k = 0; k < 3; k++) way[k] = a->foot[k] - b->foot[k];
+    return field_same_way(a, b) && fabs(dot3(way, a->normal)) <= LEAST_TURN * sqrt(dot3(way, way));
+}
+
+/* Whether the wall at one node goes on at another: with a slight turn, or round an outer edge. Where it meets another in an inner edge, nodes have the faces of both. */
 static bool goes_on(const ContactFrame *frame, const Bound *here, const Bound *there)
 {
     const Face *face = &here->face[0], *other = &there->face[0];
@@ -64,9 +72,9 @@ static bool goes_on(const ContactFrame *frame, const Bound *here, const Bound *t
     if (field_same_way(face, other)) return true;
     if (opposed(face, other)) return false;
     for (int k = 1; k < here->faces; k++)
-        if (field_same_way(&here->face[k], other)) return false;
+        if (one_wall(&here->face[k], other)) return false;
     for (int k = 1; k < there->faces; k++)
-        if (field_same_way(&there->face[k], face)) return false;
+        if (one_wall(&there->face[k], face)) return false;
     for (int a = 0; a < 3; a++) before += (face->foot[a] - other->foot[a]) * other->normal[a];
     return before < 1e-3 * frame->cell_size;
 }

@@ -76,6 +76,8 @@ def _rest(run: Run, world: Any, frame: Frame, true: float, limit: float, seconds
     turned_45=dict(boxes=[((0.81, 0.3), (0.1, 0.1), 45)]),
     step=dict(boxes=[((0.8, 0.0), (0.2, 0.2), 0)]),
     step_off=dict(boxes=[((0.815, 0.0), (0.2, 0.215), 0)]),
+    step_at_wall=dict(boxes=[((0.075, 0.075), (0.075, 0.075), 0)]),
+    stairs=dict(boxes=[((0.225, 0.05), (0.225, 0.05), 0), ((0.15, 0.15), (0.15, 0.05), 0), ((0.075, 0.25), (0.075, 0.05), 0)]),
     ramp_10=dict(boxes=[((1.1, -0.1), (0.9, 0.2), 10)]),
     ramp_20=dict(boxes=[((1.1, -0.1), (0.9, 0.2), 20)]),
     shelf=dict(boxes=[((1.6, 0.3), (0.3, 0.05), 0)]),
