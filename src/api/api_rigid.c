@@ -104,7 +104,7 @@ static pbmpm_result find_push(World *world, pbmpm_collider_id id, Collider *coll
 }
 
 /* A wall pushes and does not pull: a body that matter lifts off it is not held. */
-static bool leaves(const FreeBody *body, const RigidPush *push, const double unit[6], double dt)
+static bool is_lifted_off(const FreeBody *body, const RigidPush *push, const double unit[6], double dt)
 {
     double impulse[6], change[6], along = 0.0;
     for (int a = 0; a < 6; a++) impulse[a] = dt * body->push[a];
@@ -120,7 +120,7 @@ static void keep_body(FreeBody *body, const RigidPush *push, const RigidStops *s
     memcpy(body->expected, push->expected, sizeof push->expected);
     memcpy(body->open, body->way, sizeof body->open);
     for (int k = 0; k < stops->count; k++)
-        if (!leaves(body, push, stops->unit[k], dt)) free_body_hold(body, stops->unit[k]);
+        if (!is_lifted_off(body, push, stops->unit[k], dt)) free_body_hold(body, stops->unit[k]);
     body->yields = !push->walled;
     if (stops->count == 0) memcpy(body->expects, push->expects, sizeof body->expects);
     for (int k = 0; k < body->ways && stops->count > 0; k++) { /* what walls stopped of it they took */

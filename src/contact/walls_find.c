@@ -56,7 +56,7 @@ static const double LEAST_TURN = 0.31;
 /* Whether two faces are nearly back to back. */
 static bool opposed(const Face *a, const Face *b) { return dot3(a->normal, b->normal) < -0.95; }
 
-/* Whether two faces are of one wall: their planes count as one, and the way from foot to foot leads along them. Of a stair and the wall behind it that leads off. */
+/* Whether two faces are of one wall: their planes count as one, and the way from foot to foot leads along them. From a step to a parallel wall behind it the way leads across. */
 static bool one_wall(const Face *a, const Face *b)
 {
     double way[3];
@@ -89,7 +89,7 @@ static const Bound *bound_at(const Builder *b, int64_t node)
 /* A wall as the spline of a node sees it. */
 typedef struct Turn {
     double normal[3];
-    double bend, rounded; /* [cells]: by how much it sees the wall farther off: where that is smooth, and anywhere */
+    double bend, rounded; /* [cells]: by how much it sees the wall farther off; bend is 0 where the wall is not smooth */
 } Turn;
 
 /* The normal is the slope of the distances at nodes, which turns at edges as slowly as the spline does. A normal that leaps there lets an even pressure do work: it
@@ -738,11 +738,12 @@ static bool bind_nodes(Builder *b, Pool *pool)
     BindJob bind = {b->frame, marks, begin, bound};
     pool_for(pool, grid->node_blocks, 4, bind_blocks, &bind);
     b->bound = faced;
-    for (uint32_t i = 0; i < count && !b->failed; i++) {
-        if (bound[i].faces == 0) continue;
-        faced[b->bounds++] = &bound[i];
-        listed(b, bound[i].node);
-    }
+    for (uint32_t i = 0; i < count; i++)
+        if (bound[i].faces > 0) faced[b->bounds++] = &bound[i];
+    /* How many they follow hangs on how matter moves: here is room for more than walls anywhere took (1.6 nodes and 6.4 corners each), so that a warm step takes no memory. */
+    if (!array_reserve(b->memory, &walls->node, 2 * (size_t)b->bounds, sizeof(WallNode))) return false;
+    if (!array_reserve(b->memory, &walls->corner, CORNERS_MAX * (size_t)b->bounds, sizeof(WallCorner))) return false;
+    for (uint32_t i = 0; i < b->bounds; i++) listed(b, faced[i]->node);
     return !b->failed;
 }
 

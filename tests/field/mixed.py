@@ -279,7 +279,7 @@ def rigid_box(run: Run, density: float, angle: float = 0.0) -> None:
 
 
 def _floats_in_3d(run: Run, shape: Box | Sphere, density: float, depth: float, afloat: float) -> None:
-    """A rigid body is put on water: where its centre is after four seconds, off `afloat` above the undisturbed level, and how fast it turns."""
+    """A rigid body is put on water. After four seconds its centre is `afloat` above the level before, and it turns no more."""
     cell, width = 0.025, 0.4
     with run.world(3, cell, domain=((0, 0, 0), (width, depth + 0.3, width))) as world:
         pool(world, Frame(3), (0, 0, 0), (width, depth, width), Liquid())

@@ -95,7 +95,7 @@ static double to_be_solved(const Dense *dense)
 
 /* ---- Liquids ---- */
 
-/* What a particle is asked to grow by, by the trace of its strain: what the strain does beyond it is of the displacements that the guess began with. */
+/* What a particle is asked to grow by, by the trace of its strain: what the strain does beyond it is of the velocities before the substep. */
 static double missing_of(const Solved *solved, uint32_t row)
 {
     const World *world = solved->stage.scene.world;

@@ -43,16 +43,21 @@ static const double momenta[] = {0.0, 0.28, 0.43, 0.9};
 
 /* ---- Kernel by kernel ---- */
 
-static void check_rounds(DualStage *stage)
+static void check_iterations(DualStage *stage)
 {
-    dual_check_begin(stage);
-    dual_check_push(stage);
     for (size_t k = 0; k < sizeof momenta / sizeof *momenta; k++) {
         dual_check_iterate(stage);
         stage->scene.world->args.dual.momentum = (float)momenta[k];
         dual_check_push(stage);
         dual_check_displacements(stage, momenta[k]);
     }
+}
+
+static void check_rounds(DualStage *stage)
+{
+    dual_check_begin(stage);
+    dual_check_push(stage);
+    check_iterations(stage);
     stage->scene.step.base = &stage->base;
     stages_check_integrate(&stage->scene);
 }
@@ -63,11 +68,7 @@ static void check_rounds_of_second_order(DualStage *stage)
     dual_check_begin(stage);
     dual_check_push(stage);
     cells_check_second_order(stage);
-    for (size_t k = 0; k < sizeof momenta / sizeof *momenta; k++) {
-        dual_check_iterate(stage);
-        stage->scene.world->args.dual.momentum = (float)momenta[k];
-        dual_check_push(stage);
-    }
+    check_iterations(stage);
 }
 
 static void test_second_order(void)

@@ -63,7 +63,7 @@ def test_water_rests_around_a_held_box() -> None:
 @pytest.mark.parametrize("shape", [Box([0.15] * 3, [0.05] * 3), Box([0.1575] * 3, [0.05] * 3), Sphere([0.15] * 3, 0.05), Sphere([0.1625] * 3, 0.075)])
 def test_lift_of_what_the_host_moves(shape: Box | Sphere) -> None:
     """What the host may move is lifted as what stands. Without the volume that the spline does not see, boxes of four cells lose 13 to 15 % in 3D, these balls 6 to 8 %.
-    With it a box lacks what its corners have beside their edges, and a ball what its curvature does to second order."""
+    The volume is known to first order. Corners of these boxes make up to 8 % more, the second order of these balls' curvature up to 5 %."""
     width, depth = 12, 12
     with tank(3, width, depth) as world:
         body = world.add_collider(shape, kinematic=True, measures_impulse=True, friction=Friction.SLIP)

@@ -90,7 +90,7 @@ static bool guesses_solids(const World *world)
     return guess_iterations(world) > 0 && !in_cells(world) && (shares_world(world) || solver_holds_sand(world));
 }
 
-/* Whether what strain does beyond its trace is asked for, see ispc/granular.isph. It is found where the guess begins. In the joint solver the sketch has moved matter by then. */
+/* Whether what strain does beyond its trace is asked for, see ispc/granular.isph. It is found where the guess begins; in the joint solver the sketch of solids has moved sand by then. */
 static bool finds_second_order(const World *world) { return guess_iterations(world) > 0 && !in_cells(world) && !joint_is_chosen(world); }
 
 static bool is_bounded(const World *world) { return solver_holds_sand(world) && !joint_is_chosen(world); }
