@@ -18,11 +18,8 @@ void obstacle_set_turn(Obstacle *o)
 double obstacle_breadth(const Obstacle *obstacle)
 {
     const Solid *s = &obstacle->end;
-    if (obstacle->wall || s->kind == PBMPM_PLANE) return INFINITY;
-    if (s->grid) return s->grid->spacing;
-    double half = s->kind == PBMPM_BOX ? s->half_extents[0] : s->radius;
-    for (int a = 1; a < s->dimension && s->kind == PBMPM_BOX; a++) half = fmin(half, s->half_extents[a]);
-    return 2.0 * half;
+    if (obstacle->wall) return INFINITY;
+    return s->grid ? s->grid->spacing : solid_breadth(s);
 }
 
 /* x -> end + turn (x - start). */

@@ -54,6 +54,8 @@ void advise_no_friction(Adviser *adviser);
 /* advice_rigid.c: bodies that pbmpm_rigid_advance() moves */
 void advise_rigid_thrown_off(Adviser *adviser);
 void advise_rigid_on_sand(Adviser *adviser);
+void advise_rigid_sinks(Adviser *adviser);
+void advise_rigid_turns(Adviser *adviser);
 void advise_rigid_glides(Adviser *adviser);
 void advise_rigid_enters(Adviser *adviser);
 

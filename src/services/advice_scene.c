@@ -97,23 +97,6 @@ void advise_collider_too_fast(Adviser *adviser)
     }
 }
 
-static double thickness_of(const Collider *collider, int dimension)
-{
-    const pbmpm_shape *shape = &collider->shape;
-    double least = INFINITY;
-    switch (shape->kind) {
-    case PBMPM_BOX:
-        for (int a = 0; a < dimension; a++) least = fmin(least, 2.0 * (double)shape->half_extents[a]);
-        break;
-    case PBMPM_SPHERE:
-    case PBMPM_CAPSULE: least = 2.0 * (double)shape->radius; break;
-    case PBMPM_PLANE:
-    case PBMPM_BAKED: /* is not looked for in its grid */
-    case PBMPM_SHAPE_KIND_FORCE32: break;
-    }
-    return least;
-}
-
 /* Whether matter is within reach of a box's two widest faces. What is round has matter all around, or may have it soon. */
 static bool parts_matter(const World *world, const Collider *collider)
 {
@@ -147,7 +130,8 @@ void advise_collider_too_thin(Adviser *adviser)
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         if (!world_feels(world, collider)) continue;
-        const double cells = thickness_of(collider, world->def.dimension) / cell, needed = thickness_needed(collider);
+        const Solid solid = solid_of(&collider->shape, world->def.dimension);
+        const double cells = solid_breadth(&solid) / cell, needed = thickness_needed(collider);
         if (cells >= needed - 1e-5 || !parts_matter(world, collider)) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_THIN, .collider = {c, collider->generation}, .figure = (float)cells, .bound = (float)needed,
                                .text = "an obstacle is too thin to part matter: one side feels the other, and water there stirs"};

@@ -166,9 +166,10 @@ static double measure_level(const World *world, Cells *cells, int axis, const do
         const Share *run = &cells->share[first];
         count = run_from(cells, first);
         if (run->group != 0 || count < COLUMN || number++ % stride != 0) continue;
-        const Share *top = up > 0 ? &run[count - 1] : run;
+        const Share *top = up > 0 ? &run[count - 1] : run, *inside = &run[count / 2]; /* the middle of the top may lie beyond a thin wall */
+        const double to_top = abs(top->cell[axis] - inside->cell[axis]);
         double height = 0.0;
-        if (cells_to_obstacle(world, top, along, FREE) < INFINITY) continue;
+        if (cells_to_obstacle(world, inside, along, to_top + FREE) < INFINITY) continue;
         for (int a = 0; a < cells->dimension; a++) height -= down[a] * (top->cell[a] - HALF + (a == axis ? up * (fmin(top->filling, 1.0) - 0.5) : 0.0));
         columns += 1.0;
         sum += height;

@@ -226,6 +226,22 @@ double solid_least(const Solid *s, const double point[3])
     return distance_grid_least(s->grid, local);
 }
 
+double solid_breadth(const Solid *s)
+{
+    double half = INFINITY;
+    switch (s->kind) {
+    case PBMPM_BOX:
+        for (int a = 0; a < s->dimension; a++) half = fmin(half, s->half_extents[a]);
+        break;
+    case PBMPM_SPHERE:
+    case PBMPM_CAPSULE: half = s->radius; break;
+    case PBMPM_PLANE:
+    case PBMPM_BAKED:
+    case PBMPM_SHAPE_KIND_FORCE32: break;
+    }
+    return 2.0 * half;
+}
+
 /* The box around the turned grid. */
 static void grid_bounds(const Solid *s, double low[3], double high[3])
 {

@@ -47,6 +47,9 @@ int solid_other_faces(const Solid *solid, const double point[3], double reach, d
 /* A number that the distance is not less than: for all but baked solids the distance itself. */
 double solid_least(const Solid *solid, const double point[3]);
 
+/* [m] where it is thinnest; infinite of a plane, and of what is baked, whose grid nobody searched. */
+double solid_breadth(const Solid *solid);
+
 /* Corners of the axis-aligned box around a bounded shape. */
 void solid_bounds(const Solid *solid, double low[3], double high[3]);
 

@@ -74,3 +74,18 @@ pbmpm_material_id add_material(pbmpm_world_id world, const pbmpm_material_def *d
     OK(pbmpm_material_create(world, def, &material));
     return material;
 }
+
+void create_body(pbmpm_world_id world, const pbmpm_shape *shape, float mass, bool advanced)
+{
+    pbmpm_collider_def def;
+    pbmpm_rigid_def body;
+    pbmpm_rigid_state state = {.size = sizeof state};
+    pbmpm_collider_id collider;
+    OK(pbmpm_collider_def_init(&def, sizeof def));
+    def.kinematic = def.measures_impulse = 1;
+    OK(pbmpm_collider_create(world, &def, shape, &collider));
+    OK(pbmpm_rigid_def_init(&body, sizeof body));
+    body.mass = mass;
+    OK(pbmpm_rigid_begin(world, collider, &body, &state));
+    if (advanced) OK(pbmpm_rigid_advance(world, collider, &body, &state, DT));
+}

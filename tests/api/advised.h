@@ -32,6 +32,9 @@ bool advised(pbmpm_world_id world, float dt, const char *words);
 /** With gravity and without walls. */
 pbmpm_world_id falling_world(int32_t dimension, float cell_size);
 
+/** A rigid body [kg]; `advanced`: by a step. */
+void create_body(pbmpm_world_id world, const pbmpm_shape *shape, float mass, bool advanced);
+
 pbmpm_material_id add_material(pbmpm_world_id world, const pbmpm_material_def *def);
 
 #endif

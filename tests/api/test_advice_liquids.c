@@ -120,6 +120,30 @@ static void test_a_pool_that_moves(void)
     }
 }
 
+static pbmpm_shape turned_box(float x, float y, float half_width, float half_height, float angle)
+{
+    pbmpm_shape box = box_shape(x * cosf(angle) - y * sinf(angle), x * sinf(angle) + y * cosf(angle), 0, half_width, half_height, 1);
+    box.rotation[2] = sinf(0.5f * angle);
+    box.rotation[3] = cosf(0.5f * angle);
+    return box;
+}
+
+/* A glass that is turned together with gravity: its water lies level, however thin its walls. */
+static void test_a_pool_that_moves_in_a_thin_glass(void)
+{
+    const float angle = 0.35f, velocity[3] = {0.03f, 0, 0};
+    for (int thick = 0; thick < 2; thick++) {
+        const float half = thick ? 0.1f : 0.0025f; /* a tenth of a cell */
+        const pbmpm_world_id world = falling_world(2, 0.05f);
+        create_collider(world, turned_box(0.6f, -half, 0.6f + 2 * half, half, angle), false);
+        for (int side = 0; side < 2; side++) create_collider(world, turned_box(side ? 1.2f + half : -half, 0.4f, half, 0.4f, angle), false);
+        set_gravity(world, 9.81f * sinf(angle), -9.81f * cosf(angle), 0);
+        fill_shape(world, create_material(world, PBMPM_LIQUID), turned_box(0.6f, 0.3f, 0.6f, 0.3f, angle), velocity);
+        for (int step = 0; step < 301; step++) OK(pbmpm_world_step(world, 1e-6f)); /* 5 s if they were of DT */
+        TEST_ASSERT_EQUAL_INT32(1, expect(world, PBMPM_ADVICE_POOL_STIRS)->came_true);
+    }
+}
+
 /* In a pool that rests the predicted error is that of pressures which move nothing. */
 static void test_a_pool_at_rest_is_solved(void)
 {
@@ -240,6 +264,45 @@ static void test_a_film_on_what_floats(void)
     }
 }
 
+/* The grid misses a tenth of the lift of a box of four cells in 2D: one of 0.95 of water's density needs eight. What is far above the water, or heavier, or has not been advanced, is told nothing. */
+static void test_a_rigid_body_that_may_sink(void)
+{
+    static const struct {
+        float side, height, density;
+        bool advanced, told;
+    } cases[] = {{0.2f, 0.6f, 950, true, true},  {0.2f, 0.6f, 850, true, false}, {0.5f, 0.8f, 950, true, false},
+                 {0.2f, 2.0f, 950, true, false}, {0.2f, 0.6f, 1050, true, false}, {0.2f, 0.6f, 950, false, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const pbmpm_world_id world = falling_world(2, 0.05f);
+        const pbmpm_shape box = box_shape(1, cases[i].height, 0, 0.5f * cases[i].side, 0.5f * cases[i].side, 1);
+        fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(1, 0.25f, 0, 1, 0.25f, 1), STILL);
+        create_body(world, &box, cases[i].density * cases[i].side * cases[i].side, cases[i].advanced);
+        if (!cases[i].told) {
+            expect_none(world, PBMPM_ADVICE_BODY_TOO_THIN);
+            continue;
+        }
+        const pbmpm_advice *advice = expect(world, PBMPM_ADVICE_BODY_TOO_THIN);
+        TEST_ASSERT_FLOAT_WITHIN(1e-3f, 4.0f, advice->figure);
+        TEST_ASSERT_FLOAT_WITHIN(1e-2f, 8.0f, advice->bound);
+    }
+}
+
+static void test_a_rigid_ball_that_turns_by_itself(void)
+{
+    static const struct {
+        float radius, height;
+        bool told;
+    } cases[] = {{0.15f, 0.6f, true}, {0.15f, 2.0f, false}, {0.3f, 0.8f, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const pbmpm_world_id world = falling_world(2, 0.05f);
+        const pbmpm_shape ball = sphere_shape(1, cases[i].height, 0, cases[i].radius);
+        fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(1, 0.25f, 0, 1, 0.25f, 1), STILL);
+        create_body(world, &ball, 30, true);
+        ask(world);
+        TEST_ASSERT_EQUAL_INT(cases[i].told, tells("turns by itself"));
+    }
+}
+
 /* ---- what came true ---- */
 
 /* Twice as many particles as there is room for. */
@@ -284,11 +347,14 @@ int main(void)
     RUN_TEST(test_a_pool_too_deep_for_the_papers_solver);
     RUN_TEST(test_how_fast_a_pool_stirs);
     RUN_TEST(test_a_pool_that_moves);
+    RUN_TEST(test_a_pool_that_moves_in_a_thin_glass);
     RUN_TEST(test_a_pool_at_rest_is_solved);
     RUN_TEST(test_a_calm_pool_and_a_raft);
     RUN_TEST(test_a_dry_ball);
     RUN_TEST(test_a_viscous_liquid_slips);
     RUN_TEST(test_a_film_on_what_floats);
+    RUN_TEST(test_a_rigid_body_that_may_sink);
+    RUN_TEST(test_a_rigid_ball_that_turns_by_itself);
     RUN_TEST(test_volume_that_is_lost);
     RUN_TEST(test_volume_that_chance_may_have_lost);
     return UNITY_END();

@@ -72,20 +72,10 @@ static void test_a_rigid_body_on_sand(void)
     } cases[] = {{0.2f, 2, true, false}, {0.1f, 2, true, true}, {0.1f, 2, false, false}, {0.1f, 6, true, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_id world = falling_world(2, cases[i].cell);
-        pbmpm_collider_def def;
-        pbmpm_rigid_def crate;
-        pbmpm_rigid_state state = {.size = sizeof state};
-        const pbmpm_shape box = box_shape(cases[i].at, 2, 0, 0.5f, 0.5f, 1);
-        pbmpm_collider_id collider;
-        OK(pbmpm_collider_def_init(&def, sizeof def));
-        def.kinematic = def.measures_impulse = 1;
-        OK(pbmpm_collider_create(world, &def, &box, &collider));
+        const pbmpm_shape crate = box_shape(cases[i].at, 2, 0, 0.5f, 0.5f, 1);
         create_collider(world, plane_shape(0, 0, 0, 0, 1, 0), false);
         fill_shape(world, create_material(world, PBMPM_SAND), box_shape(2, 0.7f, 0, 2, 0.7f, 1), STILL);
-        OK(pbmpm_rigid_def_init(&crate, sizeof crate));
-        crate.mass = 600;
-        OK(pbmpm_rigid_begin(world, collider, &crate, &state));
-        if (cases[i].advanced) OK(pbmpm_rigid_advance(world, collider, &crate, &state, DT));
+        create_body(world, &crate, 600, cases[i].advanced);
         ask(world);
         TEST_ASSERT_EQUAL_INT(cases[i].told, tells("a rigid body on sand rocks"));
     }
