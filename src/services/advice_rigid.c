@@ -155,7 +155,8 @@ static double liquid_at(const World *world, const Collider *body)
 }
 
 /* The grid rounds corners: of the liquid that a body displaces it misses a layer of a tenth of a cell, the share 2 d / 10 s of a cube with sides of s cells. Held cubes and balls, turned and off the
- * grid, lack up to 0.24 of their lift with 3 cells in 3D, 0.10 with 4, 0.09 with 6 and 0.08 with 8; in 2D 0.10 with 3, 0.12 with 4 and 0.09 with 6 (as in tests/python/test_lift.py). */
+ * grid, lack up to 0.24 of their lift with 3 cells in 3D, 0.10 with 4, 0.09 with 6 and 0.08 with 8; in 2D 0.10 with 3, 0.12 with 4 and 0.09 with 6
+ * (tests/rigid_in_water.py). */
 static double lift_missing(int dimension, double cells)
 {
     static const double LAYER = 0.1; /* [cells] see above */
@@ -180,10 +181,11 @@ void advise_rigid_sinks(Adviser *adviser)
     }
 }
 
-/* At faces oblique to the grid an even pressure has a moment about a ball's centre. Balls of half of water's density turn at 0.6 to 2.2 rad/s with 4 and 6 cells, at 0.5 to 0.7 with 8 and at 0.4 with 10 and 12. */
+/* At faces oblique to the grid an even pressure has a moment about a ball's centre. Balls of half of water's density turn at 0.4 to 1.6 rad/s with 4 to 16 cells, and at 0.1 with 24
+ * (tests/rigid_in_water.py). */
 void advise_rigid_turns(Adviser *adviser)
 {
-    static const double SLOWLY = 10.0; /* cells: see above */
+    static const double SLOWLY = 24.0; /* cells: see above */
     const World *world = adviser->world;
     for (uint32_t place = 0; place < world->colliders.used && world->settings.solver != PBMPM_SOLVER_PAPER; place++) {
         const Collider *body = body_at(world, place);

@@ -292,7 +292,7 @@ static void test_a_rigid_ball_that_turns_by_itself(void)
     static const struct {
         float radius, height;
         bool told;
-    } cases[] = {{0.15f, 0.6f, true}, {0.15f, 2.0f, false}, {0.3f, 0.8f, false}};
+    } cases[] = {{0.15f, 0.6f, true}, {0.15f, 2.0f, false}, {0.6f, 1.1f, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_id world = falling_world(2, 0.05f);
         const pbmpm_shape ball = sphere_shape(1, cases[i].height, 0, cases[i].radius);
