@@ -49,7 +49,7 @@ LIMITS = {
     "heaps": "crushed",
     "grains at rest": "stirring",
     "start": "too steep",
-    "contact": "tips",
+    "contact": "tips|hangs on",
     "spin": "turns by itself",
     "on sand": "on sand",
     "calm": "goes on|go on",

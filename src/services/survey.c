@@ -448,6 +448,38 @@ static void measure_drops(const World *world, Cells *cells, int axis, uint32_t s
     heap->hole = world->def.dimension == 2 ? far : sqrt(far);
 }
 
+/* Whether matter, or an obstacle, lies within two cells of a share along an axis; `bodies`: other solids than sand alone. Sorted by cell. */
+static bool is_beside(const World *world, const Cells *cells, const Share *share, int axis, int way, bool bodies)
+{
+    enum { NEAR = 2 };
+    int32_t cell[3] = {share->cell[0], share->cell[1], share->cell[2]};
+    double along[3] = {0};
+    bool found = false;
+    along[axis] = way;
+    for (int step = 0; step < NEAR && !found; step++) {
+        cell[axis] += way;
+        found = !bodies && filling_at(cells, cell) > 0.0;
+        for (uint32_t other = 0; other < PBMPM_MAX_MATERIALS && bodies && !found; other++)
+            found = other != share->slot && world->particles.of_material[other] > 0 && material_is_solid(&world->materials, other) &&
+                    world->materials.def[other].kind != PBMPM_SAND && any_of_group(cells, cell, other + 1);
+    }
+    return found || (!bodies && cells_to_obstacle(world, share, along, NEAR) < INFINITY);
+}
+
+/* Sorted by cell. */
+static bool does_hang(const World *world, const Cells *cells, int axis, uint32_t slot)
+{
+    const int down = world->settings.gravity[axis] > 0.0f ? 1 : -1;
+    bool hangs = false;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        const Share *share = &cells->share[i];
+        if (share->group != slot + 1) continue;
+        if (is_end(cells, share, axis, down) && is_beside(world, cells, share, axis, down, false)) return false;
+        hangs = hangs || (is_end(cells, share, axis, -down) && is_beside(world, cells, share, axis, -down, true));
+    }
+    return hangs;
+}
+
 /* The share of a solid's upper side with liquid in its own cell or the one above, and no matter in the two above these. Sorted by cell. */
 static void measure_film(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
@@ -869,7 +901,8 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
         if (heap->particles == 0 || !material_is_solid(&world->materials, slot)) continue;
         measure_drops(world, cells, down, slot, heap);
         if (world->materials.def[slot].kind == PBMPM_SAND) measure_slopes(world, cells, down, slot, heap);
-        else if (floats) measure_film(world, cells, down, slot, heap);
+        else heap->hangs = does_hang(world, cells, down, slot);
+        if (floats && world->materials.def[slot].kind != PBMPM_SAND) measure_film(world, cells, down, slot, heap);
     }
     for (uint32_t i = 0; i < cells->count; i++) {
         const double part = cells->share[i].filling * pow(cells->share[i].thickness, THICKEST);

@@ -23,6 +23,7 @@ typedef struct Heap {
     bool falls_both_ways; /* it has so to both sides along an axis */
     double drop_least, drop_half, drop_most; /* how far it falls freely before it lands, over places: of all, of half, of the farthest; 0 if it never lands; solids */
     double hole;       /* width [cells] of where it would fall farther than elsewhere by four cells at least; in 3D that of a square; solids */
+    bool hangs;        /* whether nothing within two cells bears it from below, and another body is within a cell above it; solids but sand */
     double film;       /* share of its upper side with a film of liquid on it, under air; solids */
     bool on_matter;    /* whether it stands on other matter, or falls onto it, anywhere; solids */
     double narrow;     /* share of a solid, among liquid, with obstacles less than five cells away on both sides along each axis across gravity */
