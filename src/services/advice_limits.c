@@ -66,7 +66,7 @@ static void limits_of_bodies(Adviser *adviser, uint32_t slot)
     if (adviser_any_present(world, PBMPM_SAND) && falls)
         tell_limit(adviser, slot, dual_holds_solids(world, &adviser->substep) ? "a body that falls on sand may stop a cell or two above it"
                                                                              : "a body as stiff as this that falls on sand springs back, or stops a cell or two above it");
-    if (heap->hangs) tell_limit(adviser, slot, "a body that nothing bears hangs on the one above it: within a cell of each other they share nodes, and do not part");
+    if (heap->hangs) tell_limit(adviser, slot, "a body that nothing bears hangs on the one above it: less than two cells apart they share nodes, and do not part");
     /* A body of ten cells and 800 kg/m^3 with a film on 11 of 12 columns floats deeper by 0.06 of its height, with one on 6 of 13 by 0.01; lighter ones have one on 0 or 1 (tests/field/run.py floats). */
     if (heap->film > 0.5 && floats(world, def)) tell_limit(adviser, slot, "a film of liquid stays on a floating body, which floats deeper by the film's weight");
     if (wet && heap->narrow > 0.5) tell_limit(adviser, slot, "a body with less than five cells to the walls on both sides hangs in a liquid");

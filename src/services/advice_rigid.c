@@ -154,7 +154,7 @@ static double liquid_at(const World *world, const Collider *body)
     return densest;
 }
 
-/* The grid rounds corners: of the liquid that a body displaces it misses a layer of a tenth of a cell, the share 2 d / 10 s of a cube with sides of s cells. Held cubes and balls, turned and off the
+/* The grid rounds corners: of the liquid that a body displaces it misses a layer of about a tenth of a cell, the share 2 d / 10 s of a cube with sides of s cells. Held cubes and balls, turned and off the
  * grid, lack up to 0.24 of their lift with 3 cells in 3D, 0.10 with 4, 0.09 with 6 and 0.08 with 8; in 2D 0.10 with 3, 0.12 with 4 and 0.09 with 6
  * (tests/rigid_in_water.py). */
 static double lift_missing(int dimension, double cells)
@@ -191,7 +191,7 @@ void advise_rigid_turns(Adviser *adviser)
         const Collider *body = body_at(world, place);
         if (!body || !moves(body) || body->shape.kind != PBMPM_SPHERE || 2.0 * (double)body->shape.radius >= SLOWLY * (double)world->def.cell_size || liquid_at(world, body) == 0.0) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_KNOWN_LIMIT, .collider = {place, body->generation},
-                                             .text = "a rigid ball in liquid turns by itself, more slowly the more cells it has"});
+                                             .text = "a rigid ball in liquid turns by itself: slowly only from 24 cells on"});
     }
 }
 

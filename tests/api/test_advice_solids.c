@@ -169,16 +169,17 @@ static void test_a_body_that_falls_along_a_wall(void)
     }
 }
 
-/* Below a block that is held, with so many cells between. Not one that a floor bears, nor one of sand. */
+/* Below another block, of the same material or not, with so many cells between. Not one that a floor bears, nor one of sand. */
 static void test_a_body_that_hangs_on_another(void)
 {
     static const struct {
         float gap;
-        bool floor, sand, told;
-    } cases[] = {{0, false, false, true}, {1, false, false, true}, {3, false, false, false}, {1, true, false, false}, {1, false, true, false}};
+        bool floor, sand, same, told;
+    } cases[] = {{0, false, false, false, true},  {1, false, false, false, true}, {2, false, false, false, false}, {3, false, false, false, false},
+                 {1, true, false, false, false},  {1, false, true, false, false}, {1.5f, false, false, true, true}, {2, false, false, true, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_id world = falling_world(2, 0.05f);
-        const pbmpm_material_id held = create_material(world, PBMPM_ELASTIC), free_one = create_material(world, cases[i].sand ? PBMPM_SAND : PBMPM_ELASTIC);
+        const pbmpm_material_id held = create_material(world, PBMPM_ELASTIC), free_one = cases[i].same ? held : create_material(world, cases[i].sand ? PBMPM_SAND : PBMPM_ELASTIC);
         fill_shape(world, held, box_shape(0, 1, 0, 0.2f, 0.2f, 1), STILL);
         fill_shape(world, free_one, box_shape(0, 0.6f - 0.05f * cases[i].gap, 0, 0.2f, 0.2f, 1), STILL);
         if (cases[i].floor) create_collider(world, plane_shape(0, 0.4f - 0.05f * cases[i].gap, 0, 0, 1, 0), false);
