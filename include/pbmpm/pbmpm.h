@@ -1,10 +1,10 @@
-/* pbmpm: liquids and elastic solids in real time by the Position Based Material Point Method.
+/* pbmpm: liquids, elastic solids, sand and clay in real time by the Position Based Material Point Method.
  *
  * Method: C. Lewin, "A Position Based Material Point Method", SIGGRAPH 2024 Talks, doi 10.1145/3641233.3664323.
  * Transfers: C. Jiang et al., "The Affine Particle-In-Cell Method", ACM TOG 34(4), 2015; Y. Hu et al., "A Moving Least
  * Squares Material Point Method", ACM TOG 37(4), 2018.
  *
- * Units are SI, angles radians. The library knows no axis names: gravity is a vector like any other. Every function that
+ * Units are SI, angles radians. No axis is "up": gravity may point anywhere. Every function that
  * can fail returns a pbmpm_result and changes nothing on failure unless it says otherwise. Unless it is built with assertions
  * (base.h), the library never aborts, prints, exits or throws. */
 #ifndef PBMPM_H

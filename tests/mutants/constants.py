@@ -21,10 +21,10 @@ PAGE = ROOT / "docs/constants.md"
 VERDICTS = Path(__file__).with_name("constants.json")
 HEAD = """# Constants
 
-Every number with a name in `src` and `ispc` that somebody chose, room by room. Each line gives the value and what it is for. It names the test that turns red
-when the number is halved, and when it is doubled. "none" means that no test noticed that was asked. Asked were C tests of less than two seconds, for eight seconds
-(`mutate.py --constants --slowest 2 --patience 8`): the slower ones and those of Python may notice. A dash means that nobody has tried yet. The full reason stands above each constant in its file.
-The last table has those that no theory gives: their comment says "by trial", and what was tried.
+Every number with a name in `src` and `ispc` that somebody chose, folder by folder. Each line gives the value and what it is for. It names the test that turns red
+when the number is halved, and when it is doubled. "none" means that no test that ran turned red. Only C tests that take less than two seconds ran, for eight seconds per change
+(`mutate.py --constants --slowest 2 --patience 8`); slower ones and those of Python may turn red. A dash means that nobody has tried yet. The full reason stands beside each constant in its file.
+The last table lists again those that no theory gives: their comment says "by trial", and what was tried.
 
 This page is written by `python3 tests/mutants/constants.py`; `sh tests/mutants.sh --constants --folder build/constants` tries the numbers, for hours.
 """
@@ -93,7 +93,7 @@ def page(found: list[Constant], verdicts: dict[str, dict[str, str]]) -> str:
     tried = sum(len(verdicts.get(constant.key, {})) for constant in found)
     quiet = [constant for constant in found if "none" in verdicts.get(constant.key, {}).values()]
     tried_out = by_trial(found)
-    lines = [HEAD, f"{len(found)} constants, {len(tried_out)} of them by trial; {tried} of {2 * len(found)} changes tried, {len(quiet)} constants with one that no test noticed."]
+    lines = [HEAD, f"{len(found)} constants, {len(tried_out)} of them by trial; {tried} of {2 * len(found)} changes tried. With {len(quiet)} constants no test noticed one of the changes at least."]
     for room, own in rooms.items():
         lines += ["", f"## {room}", "", "| Name | Value | What it is for | Halved | Doubled |", "|---|---|---|---|---|"]
         for constant in own:
