@@ -47,8 +47,8 @@ typedef int32 int32_t;
 #define K_FIXED_COROTATED 0
 #define K_NEO_HOOKEAN 1
 
-#define K_LIQUID_RATIO_MIN 0.05f /* a liquid particle's J stays above this */
-#define K_LIQUID_RATIO_MAX 1.2f  /* and below this: spray that comes back shall not pull the pool together */
+#define K_LIQUID_RATIO_MIN 0.05f /* a liquid particle's J stays above this; by trial */
+#define K_LIQUID_RATIO_MAX 1.2f  /* and below this: spray that comes back shall not pull the pool together; by trial */
 
 #define K_HEADS 3.0f /* crushed liquid moves as so many times its weight drives it, see growth_head2() in src/solvers/paper.c; by trial: with 4 it leaves H16 too fast */
 

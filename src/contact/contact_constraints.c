@@ -105,13 +105,13 @@ void constraints_take_out(const Contact *contact, float *vector) { take_out(cont
 
 /* ---- Friction ---- */
 
-/* Below this slip [cells per 1/60 s] friction grows with it: a kink that iterations could not find. */
+/* Below this slip [cells per 1/60 s] friction grows with it: a kink that iterations could not find. By trial. */
 static const float SLIP_MIN = 1e-4f;
 
 /* What sticks rubs like this: the most that a collider may be given. */
 static const float STICKS = 100.0f;
 
-/* A body's momentum changes by what its contacts give, so this bounds what an unfinished solution says of their impulses. */
+/* A body's momentum changes by what its contacts give, so this bounds what an unfinished solution says of their impulses. By trial. */
 static const double SCALE_MAX = 20.0;
 
 bool constraints_stick(const Contact *contact) { return is_held(contact); }
@@ -232,7 +232,7 @@ bool constraints_have_friction(const ContactFrame *frame)
     return false;
 }
 
-/* Normals closer than this are one direction: a plane, a side of a box, a part of a ball. */
+/* Normals closer than this are one direction: a plane, a side of a box, a part of a ball. By trial. */
 static const float ONE_DIRECTION = 0.9f;
 
 static int group_for(BodyFriction *body, const float *normal)

@@ -21,7 +21,7 @@ typedef struct FindJob {
 } FindJob;
 
 /* What the iterations may add to the way of a node [cells]. Nodes that walls leave free stand half a cell before them, and those behind follow: iterations do not add
- * to that. */
+ * to that. By trial. */
 static const double WAY_MARGIN = 1.0, WAY_MARGIN_AT_WALLS = 0.25;
 
 /* How close [cells] a node must be to an obstacle to be able to meet it: what it may move, what the obstacle moves, and

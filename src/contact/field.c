@@ -6,7 +6,7 @@
 #include "base/vector.h"
 #include "shape/tangent_planes.h"
 
-/* How far before a face [cells] the space must be open. */
+/* How far before a face [cells] the space must be open. By trial. */
 static const double BEFORE = 0.1;
 /* Surfaces that are meant to meet differ by rounding: what is nearer than this [cells] is on a surface. And what is farther off than that is clear of it. */
 static const double ON_SURFACE = 1e-3, CLEAR_OF = 0.01;
@@ -447,7 +447,7 @@ int field_outer_faces(const Near *near, const double point[3], double reach, Fac
 
 bool field_opposite(const Near *near, const double point[3], const Face *face, Face *other)
 {
-    static const double OPPOSITE = -0.9; /* cosine: within 26 degrees of back to back */
+    static const double OPPOSITE = -0.9; /* cosine: within 26 degrees of back to back; by trial */
     Face all[CANDIDATES];
     const int candidates = faces_around(near, point, NODE_REACH, all);
     bool found = false;
@@ -492,7 +492,7 @@ double field_spline(double x)
  * along turned axes. */
 static double box_share(const Near *near, const Solid *s, const double point[3], const Face *before)
 {
-    static const double ALONG = 0.9; /* cosine: within 26 degrees of an axis of the box */
+    static const double ALONG = 0.9; /* cosine: within 26 degrees of an axis of the box; by trial */
     double local[3], normal[3], share = 1.0;
     along_axes(s, point, local);
     for (int a = 0; a < s->dimension; a++) {

@@ -26,7 +26,7 @@ static void middle_of_matter(const WetSite *site, double middle[3])
     for (int a = 0; a < 3; a++) middle[a] = site->point[a] + (sum > 0.0 ? moment[a] / sum * site->near->cell_size : 0.0);
 }
 
-/* Below this share of a node's matter the space before a face counts as dry. */
+/* Below this share of a node's matter the space before a face counts as dry. By trial. */
 static const float DRY = 0.02f;
 
 /* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it. */

@@ -195,7 +195,7 @@ static bool is_built(const Multilevel *m, const Grid *grid, int width, int32_t s
 
 bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width, LevelsEnd end)
 {
-    enum { LEVELS_FAR_BEYOND = 8 }; /* hats of 256 blocks, a thousand cells: wider matter has a mean that these no longer see as one */
+    enum { LEVELS_FAR_BEYOND = 8 }; /* hats of 256 blocks, a thousand cells: wider matter has a mean that these no longer see as one; by trial */
     const int most_levels = end == LEVELS_BEYOND ? LEVELS_FAR_BEYOND : MULTILEVEL_MAX;
     /* Blocks below those with the lowest particles have -1, and would have it on all levels. */
     const int32_t shift = end == LEVELS_BEYOND ? 0 : 1;

@@ -15,11 +15,11 @@ enum { BLOCK_GRAIN = 8 };
 /* Shares of v. FALLS is a fall by a quarter of a cell. Between the others sand may do either: it creeps by a cell in seconds, or trembles as iterations leave it. By trial, on
  * the sand of tests/field. */
 static const double FALLS = 0.5, CREEPS = 0.003, SETTLES = 0.07;
-static const double SLOW = 0.3;                                  /* [s] longer than what settles or strikes lasts */
-static const double FORGETS = 1.0;                               /* [s] what grains bear beside the means of cells: as long as a bin takes to begin */
+static const double SLOW = 0.3;                                  /* [s] longer than what settles or strikes lasts; by trial */
+static const double FORGETS = 1.0;                               /* [s] what grains bear beside the means of cells: as long as a bin takes to begin; by trial */
 static const double MISSING_MOST = 0.03;                         /* of the volume of sand that rests: as much as random places make the grid miss */
-static const double RETURNS = 0.1;                               /* of what is missing, per second: what gains less stays as it is, pressed by what the iterations leave */
-static const double FEW = 0.25;                                  /* of the grains of the fullest block: what has fewer is its rim, or spray */
+static const double RETURNS = 0.1;                               /* of what is missing, per second: what gains less stays as it is, pressed by what the iterations leave; by trial */
+static const double FEW = 0.25;                                  /* of the grains of the fullest block: what has fewer is its rim, or spray; by trial */
 
 /* The grains of a block. */
 typedef struct GranularBlock {

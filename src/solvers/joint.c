@@ -15,7 +15,7 @@
 enum { W = K_NODE_WIDTH, BLOCK_GRAIN = 8 };
 
 /* Most of c (2 mu + lambda) per square of the iterations. Of what is stiffer the iterations find too little: light bodies of 1e8 Pa burst at 60 Hz x 5. At that rate
- * 20 cells of water press what is held so by less than a hundredth. */
+ * 20 cells of water press what is held so by less than a hundredth. By trial. */
 static const double STIFFEST = 64.0;
 
 /* k over what N iterations hold: sound travels N / 2 cells per substep. What the primal's part compresses the dual brings back in the next substep, which drives a pool.

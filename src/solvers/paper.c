@@ -75,7 +75,7 @@ static double growth_head2(const World *world, const LiquidState *liquid, const 
  * the weight of the heaviest one, up to the pressure (1/J - 1) / J K that leaves it J = 0.73: what is crushed further gains energy when it grows. */
 static double pressure_bound(const World *world, const KernelMaterial *material, double head, double densest)
 {
-    static const double BEARS = 0.5; /* (1/J - 1) / J at J = 0.73, see above */
+    static const double BEARS = 0.5; /* (1/J - 1) / J at J = 0.73, see above; by trial */
     const double cells = world->substep.to_cells;
     const double stiffness = (double)material->relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
     const double own = head / stiffness, heavier = densest * (double)material->inverse_density;
@@ -116,7 +116,7 @@ static double driven_growth(const World *world, const KernelMaterial *material)
  * g k < 0.0025 (w N dx / (g dt^2)) g k^4 dx^3. */
 static float even_share(const World *world, const KernelMaterial *material)
 {
-    static const double LOCKS = 1.5e5; /* w N dx / (g dt^2) at which waves of 45 cells stand still, see above */
+    static const double LOCKS = 1.5e5; /* w N dx / (g dt^2) at which waves of 45 cells stand still, see above; by trial */
     const double fall = gravity_fall(world, &world->substep);
     const double stiffness = (double)material->relaxation * world->settings.iterations / fmax(fall, 1e-12);
     const double share = fall > 0.0 ? fmin(fmax(stiffness / LOCKS - 1.0, 0.0), 1.0) : 0.0;
@@ -143,7 +143,7 @@ double paper_viscous_share(const World *world, const pbmpm_material_def *def, co
     return fmin((double)def->viscosity + 8.0 * (double)def->kinematic_viscosity * substep->dt / (world->settings.iterations * dx * dx), 1.0);
 }
 
-/* Without gravity nothing brings spray back, so crushed matter grows slowly. */
+/* Without gravity nothing brings spray back, so crushed matter grows slowly. By trial. */
 static const float WEIGHTLESS_REBOUND = 0.3f;
 
 void paper_set_materials(World *world)

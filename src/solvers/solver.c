@@ -51,7 +51,7 @@ static void set_volume_control(World *world)
 }
 
 /* Where the dual and the primal solver's liquid is slower than this [cells/s], feedback fades. By itself it moves matter by less: 6 per second (0.1 per 1/60 s) of
- * 5 % of noise are 0.3 cells/s. */
+ * 5 % of noise are 0.3 cells/s. By trial. */
 static const double CALM_SPEED = 2.4;
 
 /* More iterations make matter stiffer with the paper's solver, and with the dual where it does not get the stiffness that it is asked for. A body that

@@ -145,7 +145,7 @@ static bool point_of(const Nozzle *nozzle, const double u[3], double point[3])
 }
 
 /* The sequence is a lattice in disguise, and shows as stripes where a stream is stretched. So each point is moved at random by up to a
- * quarter of the particles' distance, as those of a fill are. */
+ * quarter of the particles' distance, as those of a fill are. By trial. */
 static const double JITTER = 0.5;
 
 /* What is inside shall be so after positions are rounded to floats. */
@@ -213,7 +213,7 @@ static Occupancy occupancy_bounds(const World *world, const Emitter *emitter, in
 
 /* ---- Births ---- */
 
-/* A particle's own nodes may hold so much more than fill_limit: in a stream that is just full they do in places. */
+/* A particle's own nodes may hold so much more than fill_limit: in a stream that is just full they do in places. By trial. */
 static const double DENSEST = 1.25;
 
 /* Farther from an obstacle than this [cells] all nodes that count are open: OCCUPANCY_WIDE + 1/2 and their support, 3/2, along the axes. Across them it is 4 sqrt(d), 6.93

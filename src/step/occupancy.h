@@ -5,7 +5,7 @@
 #include "world/world.h"
 
 enum {
-    OCCUPANCY_WIDE = 2, /* nodes to either side of a particle's own that count */
+    OCCUPANCY_WIDE = 2, /* nodes to either side of a particle's own that count; by trial */
     OCCUPANCY_RIM = OCCUPANCY_WIDE + 3 /* outside of the domain: two that do not know all of their particles, and one that is closed; and what rounding takes */
 };
 

@@ -18,7 +18,7 @@ void sleep_begin_step(World *world)
 {
     const double dt = world->substep.dt;
     Sleep *sleep = &world->sleep;
-    static const double SAME = 1.1; /* factor between lengths of substeps with which matter at rest stays at rest */
+    static const double SAME = 1.1; /* factor between lengths of substeps with which matter at rest stays at rest; by trial */
     if (!world->settings.sleeping) {
         if (sleep->on) sleep_end(sleep);
         return;
@@ -33,7 +33,7 @@ void sleep_begin_step(World *world)
 
 /* ---- Deciding ---- */
 
-/* A block may take in this share of its particles while it sleeps: slow ones that come over from a neighbour. */
+/* A block may take in this share of its particles while it sleeps: slow ones that come over from a neighbour. By trial. */
 static const uint32_t JOINED_MOST = 16;
 
 typedef struct Decision {

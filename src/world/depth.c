@@ -49,7 +49,7 @@ static Layer layer_of(const World *world, int32_t i, bool liquid)
 static double depth_of(const World *world, int32_t layers, double particles, bool liquid)
 {
     enum { BINS = 64, ROUNDS = 4 }; /* each round looks closer at where the ends lie: far below a block, however far a lone drop flew */
-    static const double TRIMMED = 0.02; /* share of the particles at each end, which may be spray */
+    static const double TRIMMED = 0.02; /* share of the particles at each end, which may be spray; by trial */
     const double trim = TRIMMED * particles;
     double low = INFINITY, high = -INFINITY;
     for (int32_t i = 0; i < layers; i++) {

@@ -52,7 +52,7 @@ static const double CARRIED_SHARE = 0.5;
 
 /* With a single iteration the pressure of slow motion is -k sum_j CARRIED^j e_(n+1-j), with e_(n+1) = e_n + v the strain that the predictor leads to. What is
  * carried lags by CARRIED / (1 - CARRIED) substeps behind that, which is one ahead: the force answers to the strain (1 - 2 CARRIED) / (1 - CARRIED)
- * substeps from now and damps if that is positive. With a half nothing damps, and pools bounce for ever; this leads by a fifth of a substep. */
+ * substeps from now and damps if that is positive. With a half nothing damps, and pools bounce for ever; this leads by a fifth of a substep. By trial. */
 static const double CARRIED_SHARE_OF_ONE = 0.45;
 
 /* The guess finds the pressures of cells anew, as a correction: all is kept, but see fine_carried(). Not where liquids differ in density: there the guess is
@@ -171,7 +171,7 @@ static void bind_cells(World *world)
  * shorter the substep is: a sheet of liquid that was let go at 480 Hz grew 1.3-fold in each, up to 45 m/s at its edges. Liquid that stores no energy has no speed of
  * its own to leave at. One that bears a heavier one leaves faster, by the root of their densities (Torricelli). But little of what a single iteration asks for
  * comes: a growth that is asked for everywhere pushes surfaces alone. Its pressure is what it asks for times its stiffness, and a bound of the one bounds the other: a
- * column at 240 Hz x 1 sank by 59 %, not 18 %. The stiffness of accelerated iterations grows with N^2; so N may ask for that much less. */
+ * column at 240 Hz x 1 sank by 59 %, not 18 %. The stiffness of accelerated iterations grows with N^2; so N may ask for that much less. By trial. */
 static const double GROWTH_MAX = 0.3;
 
 static float growth_max(const World *world)
@@ -455,7 +455,7 @@ double dual_stiffness_share(const World *world, const pbmpm_material_def *def, c
 
 /* Solids that are too soft for their own weight end crushed in a row of cells. Where gravity pulls, those by themselves are therefore
  * asked for what is compressed by WEIGHT_STRAIN at most below matter of this depth, as far as the iterations bear that: c times the
- * pressure there is 4 g dt^2/dx per cell of depth. */
+ * pressure there is 4 g dt^2/dx per cell of depth. By trial. */
 static const double WEIGHT_STRAIN = 0.05;
 
 static double weight_stiffness(const World *world, const Substep *substep)

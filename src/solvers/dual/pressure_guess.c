@@ -51,7 +51,7 @@ static float least_softness(const World *world)
 }
 
 /* Volume that is missing is given back in 1/60 s, and crushed matter grows by no more than GUESS_GROWTH_MAX per substep: the guess acts on all of a body at
- * once, and what it gives back in one substep becomes a velocity, missing volume * depth / dt. */
+ * once, and what it gives back in one substep becomes a velocity, missing volume * depth / dt. By trial. */
 static const float GUESS_GROWTH_MAX = 0.05f;
 
 /* A column of n cells that is short of e per cell has sunk by n e, and its top is thrown up by n a / dt if it is asked for a. Where a light liquid gives way
@@ -75,7 +75,7 @@ typedef struct Guess {
     float step, keep, mean;        /* of conjugate gradients; of a field over the mask */
 } Guess;
 
-/* Of a full cell's mass. What a few particles at the edge of their reach say of a cell behind a wall would count as much as what a full cell says. */
+/* Of a full cell's mass. What a few particles at the edge of their reach say of a cell behind a wall would count as much as what a full cell says. By trial. */
 static const double LITTLE = 0.01;
 
 static GuessMeasures measures_of(const World *world)

@@ -9,7 +9,7 @@
 
 #include "world/world.h"
 
-/* Rounds cost about what iterations do: beyond, a raised number of iterations is the honest price of a stiff body. */
+/* Rounds cost about what iterations do: beyond, a raised number of iterations is the honest price of a stiff body. By trial. */
 enum { ROUNDS_MOST = 16 };
 
 /* How many rounds bodies take whose stiffness without unit, c (2 mu + lambda), is `stiffness`, given the iterations over all blocks. */

@@ -15,7 +15,7 @@
  * cantilever of the accuracy cases were fewest around 2, by trial. */
 static const double OVERLAP = 2.0;
 
-static const double FAR_FROM_DONE = 0.1;    /* residual over what forces changed: BDF2 extrapolates no error that is more than a tenth of the motion */
+static const double FAR_FROM_DONE = 0.1;    /* residual over what forces changed: BDF2 extrapolates no error that is more than a tenth of the motion; by trial */
 
 enum { BLOCK_GRAIN = 8, VECTORS = 4 + 2 * PRIMAL_MEMORY };
 

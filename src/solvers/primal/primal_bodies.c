@@ -206,7 +206,7 @@ static bool eddies_pay(const Primal *p, const BodySum *body, double gain)
  * 1 - s^2 the gain over that kinetic energy. In the joint solver eddies pay. Returns how many failed bodies are left. */
 static uint32_t let_pay(Primal *p)
 {
-    static const double MOST = 0.5; /* of that kinetic energy: more would take most of its speed: then it starts again instead */
+    static const double MOST = 0.5; /* of that kinetic energy: more would take most of its speed: then it starts again instead; by trial */
     const PrimalState *state = &p->world->primal;
     RigidBody *rigid = state->rigid.data;
     BodySum *body = state->body_sums.data;

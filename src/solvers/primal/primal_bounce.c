@@ -18,7 +18,7 @@
 #include "solvers/primal/primal_yield.h"
 #include "world/sleep_rows.h"
 
-static const double IMPACT = 2.0;   /* times its load, see load_of(): what pushes a body less carries it, or it rolls */
+static const double IMPACT = 2.0;   /* times its load, see load_of(): what pushes a body less carries it, or it rolls; by trial */
 static const double RECEDES = 30.0; /* by trial: what lost so much more than its motion along the push has was thrown back, not slowed */
 static const double MOST = 1.0;     /* of the change: the velocity at the end of a step whose mean is that of the solution */
 

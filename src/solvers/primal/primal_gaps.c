@@ -15,7 +15,7 @@
 
 static const double RADIUS = 0.25; /* [cells] of a particle, with two per cell and axis as fill() puts them */
 static const double FAR = 2.5;     /* [cells]: particles with more room than nodes are ever given are not looked at */
-static const float SURFACE = 0.25f; /* [cells]: particles with that much more room than the one with the least are not at the surface any more */
+static const float SURFACE = 0.25f; /* [cells]: particles with that much more room than the one with the least are not at the surface any more; by trial */
 static const double CELL_REACH = 0.87; /* [cells]: half the diagonal of a cell, rounded up */
 
 enum { TILE = K_TILE_AXIS, BLOCK = K_BLOCK_AXIS };

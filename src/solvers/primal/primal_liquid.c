@@ -101,7 +101,7 @@ static void spend(World *world)
  * for all of the matter fling what feels none of its pressure. It goes where its forces alone lead. */
 static void let_fly(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    static const float EXPLAINED = 0.5f, LOOSE_NODE = 0.9f; /* of the way; m / (m + k) */
+    static const float EXPLAINED = 0.5f, LOOSE_NODE = 0.9f; /* of the way; m / (m + k); by trial */
     const float *inverse = p->world->primal.inverse.data;
     memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof *p->node);
     if (!primal_body_of(p, block)->with_liquid) return;
@@ -194,7 +194,7 @@ static void damp_eddies(Primal *p)
 
 void primal_find_kept(Primal *p)
 {
-    enum { HALVINGS = 3 }; /* to an eighth of the way; what cannot pay even that goes back to where it started from */
+    enum { HALVINGS = 3 }; /* to an eighth of the way; what cannot pay even that goes back to where it started from; by trial */
     if (!solver_holds_liquid(p->world)) return;
     if (p->joint) {
         damp_eddies(p);

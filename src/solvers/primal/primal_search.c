@@ -16,7 +16,7 @@
 static const double ARMIJO = 1e-4;          /* share of the promised decrease of energy that is enough */
 static const double SLOPE_SHARE = 0.8;      /* share of the first slope, either way, that the last one may have */
 static const double SMALLEST_STEP = 1e-6;   /* share of a step: below, displacements change by their rounding */
-static const double TOO_LONG = 0.4;         /* of the first slope, that the last one may have on the other side where nothing comes after it */
+static const double TOO_LONG = 0.4;         /* of the first slope, that the last one may have on the other side where nothing comes after it; by trial */
 static const float LOOSE = 10.0f;            /* stiffness over mass with which a node of a liquid joins half in the levels' corrections; by trial, see share_of_levels() */
 static const float JOINS_MIN = 1e-20f;      /* of the levels' corrections: less is none, and no float may overflow */
 static const double CURVATURE_MIN = 1e-6;   /* cosine between a step and the change of the gradient */
