@@ -2,6 +2,9 @@
 #ifndef PBMPM_SRC_BASE_VECTOR_H
 #define PBMPM_SRC_BASE_VECTOR_H
 
+/* Cosine of 18 degrees: normals that differ by less count as one direction. */
+static const double SAME_DIRECTION = 0.95;
+
 static inline double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 static inline void cross3(const double a[3], const double b[3], double out[3])

@@ -439,7 +439,7 @@ int field_outer_faces(const Near *near, const double point[3], double reach, Fac
     const int faces = box_faces(near, o, point, reach, all, 2 * near->dimension);
     for (int i = 0; i < faces; i++) {
         bool known = all[i].distance > 0.0 || count == near->dimension;
-        for (int k = 0; k < count && !known; k++) known = fabs(dot3(all[i].normal, face[k].normal)) > FIELD_SAME_WAY;
+        for (int k = 0; k < count && !known; k++) known = fabs(dot3(all[i].normal, face[k].normal)) > SAME_DIRECTION;
         if (!known && bounds_space(near, &all[i])) face[count++] = all[i];
     }
     return count;

@@ -70,13 +70,13 @@ bool field_is_between(const Near *near, const double place[3], const double poin
 
 /* Planes whose normals differ by less count as one: the nearest. Those of one baked solid are guesses and have to differ by 45 degrees, halfway to an edge; exact ones by
  * 18: of a blunter inner edge the stretch where matter is close to both planes would be as long as a block. Blunter ones are rounded, see walls_find.c. */
-static const double FIELD_SAME_WAY = 0.95, FIELD_SAME_WAY_BAKED = 0.7;
+static const double SAME_DIRECTION_BAKED = 0.7;
 
 /* Whether two planes count as one. */
 static inline bool field_same_way(const Face *a, const Face *b)
 {
     const bool guessed = a->obstacle == b->obstacle && a->obstacle->start.grid;
-    return dot3(a->normal, b->normal) > (guessed ? FIELD_SAME_WAY_BAKED : FIELD_SAME_WAY);
+    return dot3(a->normal, b->normal) > (guessed ? SAME_DIRECTION_BAKED : SAME_DIRECTION);
 }
 
 /* Of the obstacles that a point is in, the surface that is nearest, walls of the domain first: where they overlap too far for field_faces(). False: it is in none. */

@@ -54,7 +54,7 @@ typedef struct Profile {
 static const double LEAST_TURN = 0.31;
 
 /* Whether two faces are nearly back to back. */
-static bool opposed(const Face *a, const Face *b) { return dot3(a->normal, b->normal) < -0.95; }
+static bool opposed(const Face *a, const Face *b) { return dot3(a->normal, b->normal) < -SAME_DIRECTION; }
 
 /* Whether two faces are of one wall: their planes count as one, and the way from foot to foot leads along them. From a step to a parallel wall behind it the way leads across. */
 static bool one_wall(const Face *a, const Face *b)

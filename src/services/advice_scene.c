@@ -44,7 +44,7 @@ void advise_falls_forever(Adviser *adviser)
     }
     if (looked == 0.0 || falls <= FEW * looked) return;
     pbmpm_advice advice = {.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)(falls / looked), .bound = (float)FEW,
-                           .text = "matter has nothing to fall on, and no kill bounds take it out: it falls for ever at full cost"};
+                           .text = "this share of matter and emitters has nothing to fall on, and no kill bounds take it out: it falls for ever at full cost"};
     adviser_by_value(PBMPM_CHANGE_KILL_BOUNDS, 0.0, 0.0, &advice);
     adviser_give(adviser, advice);
 }

@@ -37,9 +37,6 @@ static Sample look(const Lookout *l, const double offset[3])
     return sample;
 }
 
-/* Planes closer than this in direction count as one. By trial. */
-static const double SAME_DIRECTION = 0.95;
-
 static bool is_known(const Lookout *l, const double normal[3])
 {
     for (int i = 0; i < l->count; i++)

@@ -105,6 +105,10 @@ def test_output_paths_are_tried_before_any_work(root: Path, tmp_path: Path, word
     assert ".part" not in heard
 
 
+def test_a_video_is_named_as_what_it_is(root: Path, tmp_path: Path) -> None:
+    assert "run.mp4: its name has to end in .gif" in said("run", root / "samples" / "scenes" / "column_2d.json", "--video", tmp_path / "run.mp4")
+
+
 def test_the_default_folder_of_presets_is_tried_before_any_work(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("column_2d-tune").write_text("a file")
@@ -118,9 +122,10 @@ def test_the_default_folder_of_presets_is_tried_before_any_work(root: Path, tmp_
         (lambda: pbmpm.Liquid(denisty=1e3), "Liquid has no parameter 'denisty'; did you mean 'density'?"),
         (lambda: pbmpm.Sand(friction=0.5), "Sand has no parameter 'friction'; did you mean 'friction_angle'?"),
         (lambda: pbmpm.Box((0, 0), half_extent=(1, 1)), "Box has no parameter 'half_extent'; did you mean 'half_extents'?"),
+        (lambda: pbmpm.Box((0, 0), h=(1, 1)), "Box has no parameter 'h'; it has position, half_extents, rotation"),
         (lambda: pbmpm.World(2, 0.1, gravtiy=(0, -9.81)), "World has no parameter 'gravtiy'; did you mean 'gravity'?"),
     ],
-    ids=["Elastic", "Liquid", "Sand", "Box", "World"],
+    ids=["Elastic", "Liquid", "Sand", "Box", "short", "World"],
 )
 def test_a_misspelt_parameter_gets_a_suggestion(make: Callable[[], object], text: str) -> None:
     with pytest.raises(TypeError) as caught:

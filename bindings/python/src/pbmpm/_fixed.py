@@ -26,7 +26,7 @@ def tells_names(kind: type[Anything]) -> type[Anything]:
     def made(self: Any, *values: Any, **named: Any) -> None:
         for name in named:
             if name not in known:
-                raise TypeError(f"{type(self).__name__} has no parameter '{name}'{nearest(name, known)}")
+                raise TypeError(f"{type(self).__name__} has no parameter '{name}'{nearest(name, known) or '; it has ' + ', '.join(known)}")
         plain(self, *values, **named)
 
     setattr(kind, "__init__", made)

@@ -206,14 +206,17 @@ def choice_of(names: Any) -> click.Choice:
 
 
 class OutputFile(click.ParamType):
-    """A file that a command will write: its folder is made and tried before any work. A Path; with ``dash`` a word, which may be "-"."""
+    """A file that a command will write: its folder is made and tried before any work. A Path; with ``dash`` a word, which may be "-".
+    ``suffix``: what its name has to end in."""
 
     name = "file"
 
-    def __init__(self, dash: bool = False) -> None:
-        self._dash = dash
+    def __init__(self, dash: bool = False, suffix: str = "") -> None:
+        self._dash, self._suffix = dash, suffix
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str | Path:
+        if not str(value).lower().endswith(self._suffix):
+            self.fail(f"{value}: its name has to end in {self._suffix}", param, ctx)
         if not (self._dash and value == "-"):
             try:
                 ready_file(Path(value))

@@ -42,7 +42,7 @@ from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile,
 @click.option(
     "--pictures", type=TimeList(), help="Times of PNG pictures [s]; '' for none.  [default: the scene's, with --output]"
 )
-@click.option("--video", type=OutputFile(), metavar="FILE", help="Write an animated GIF, 480 pixels wide, at the pace of the scene.")
+@click.option("--video", type=OutputFile(suffix=".gif"), metavar="FILE", help="Write an animated GIF, 480 pixels wide, at the pace of the scene.")
 @click.option(
     "--warmup-steps",
     type=click.IntRange(0),
