@@ -7,7 +7,7 @@
 /* What a group of matter has in one cell. Liquids are one group, each solid is its own. */
 typedef struct Share {
     uint64_t place;   /* group, then two axes, then the axis that runs go along */
-    int32_t cell[3];  /* from the lowest */
+    int32_t cell[3];  /* from the first particle's, plus HALF */
     uint32_t group;
     uint32_t slot;    /* a material of the group */
     double filling;   /* rest volume over cell volume */

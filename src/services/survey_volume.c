@@ -106,7 +106,7 @@ static bool is_inside(const Cells *cells, const Share *share)
     return true;
 }
 
-enum { FEW = 8 }; /* cells inside, of which no mean is made */
+enum { FEW = 8 }; /* cells: fewer inside make no mean */
 
 void survey_filling(Cells *cells, double filling[PBMPM_MAX_MATERIALS + 1], double error[PBMPM_MAX_MATERIALS + 1])
 {
