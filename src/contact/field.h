@@ -68,11 +68,11 @@ int field_faces_from(const Near *near, const double place[3], const double point
 /* Whether a face that is seen from `place` stands between it and `point`. */
 bool field_is_between(const Near *near, const double place[3], const double point[3], const Face *face);
 
-/* Planes whose normals differ by less count as one: the nearest. Those of one baked solid are guesses and have to differ by 45 degrees, halfway to an edge; exact ones by
- * 18: of a blunter inner edge the stretch where matter is close to both planes would be as long as a block. Blunter ones are rounded, see walls_find.c. */
+/* Normals of one baked solid are guesses: planes count as two from 45 degrees on, halfway to an edge. */
 static const double SAME_DIRECTION_BAKED = 0.7;
 
-/* Whether two planes count as one. */
+/* Whether two planes count as one, the nearest. Exact normals have to differ by SAME_DIRECTION: of a blunter inner edge the stretch where matter is close to both planes
+ * would be as long as a block. Blunter ones are rounded, see walls_find.c. */
 static inline bool field_same_way(const Face *a, const Face *b)
 {
     const bool guessed = a->obstacle == b->obstacle && a->obstacle->start.grid;

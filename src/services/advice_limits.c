@@ -44,13 +44,12 @@ static void limits_of_sand(Adviser *adviser, uint32_t slot)
     if (heap->steep > STEEP && slides_far(heap)) tell_limit(adviser, slot, "sand that slides far loses up to seven percent of its volume");
 }
 
-/* What holds a body up acts on the nodes that its splines reach, up to 1.5 cells beyond it: a weight that lies beyond its edge by less is borne, or tips it slowly. */
+/* What holds a body up acts on the nodes that its splines reach, up to NODE_REACH cells beyond it: a weight that lies beyond its edge by less is borne, or tips it slowly. */
 static void limits_of_edges(Adviser *adviser, uint32_t slot)
 {
-    static const double REACH = 1.5; /* [cells] of a spline, see above */
     const World *world = adviser->world;
     const double lever = adviser->survey.heap[slot].lever;
-    if (lever <= 0.0 || lever >= REACH || adviser_any_sticks(world) || adviser_any_present(world, PBMPM_LIQUID)) return; /* in liquid it may float */
+    if (lever <= 0.0 || lever >= NODE_REACH || adviser_any_sticks(world) || adviser_any_present(world, PBMPM_LIQUID)) return; /* in liquid it may float */
     tell_limit(adviser, slot, "a body's weight lies beyond its edge by less than the grid resolves: it tips too slowly, or stands");
 }
 

@@ -47,7 +47,6 @@ static double mass_of(const World *world, const Collider *collider)
 /* Whether matter of a material is as near as splines reach from one to the other. */
 static bool touches(const World *world, uint32_t slot, const Collider *collider)
 {
-    static const double REACH = 1.5; /* [cells] of a spline */
     const Particles *p = &world->particles;
     Solid solid = solid_of(&collider->shape, p->dimension);
     solid.grid = collider->grid;
@@ -55,7 +54,7 @@ static bool touches(const World *world, uint32_t slot, const Collider *collider)
         double at[3] = {0};
         if (p->material[row] != slot) continue;
         for (int a = 0; a < p->dimension; a++) at[a] = particles_coordinate(p, row, a) * (double)world->def.cell_size;
-        if (solid_gap(&solid, at) < REACH * (double)world->def.cell_size) return true;
+        if (solid_gap(&solid, at) < NODE_REACH * (double)world->def.cell_size) return true;
     }
     return false;
 }

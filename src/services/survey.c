@@ -191,9 +191,6 @@ static bool may_float(const World *world, const Cells *cells)
     return solid && any_liquid(world);
 }
 
-/* A body is as thick as its thickest part, but for noise: what counts is a mean that leans that far to it. */
-static const double THICKEST = 4.0;
-
 /* What depends on which way is down: how a solid falls, hangs, slides. Sorted by cell, bodies are found. */
 static void look_below(const World *world, Cells *cells, int down, bool floats, Survey *survey)
 {
@@ -214,6 +211,9 @@ static void look_below(const World *world, Cells *cells, int down, bool floats, 
 typedef struct Sizes {
     double runs[3][PBMPM_MAX_MATERIALS + 1], narrow[PBMPM_MAX_MATERIALS + 1], thickness[PBMPM_MAX_MATERIALS + 1], uneven;
 } Sizes;
+
+/* A body is as thick as its thickest part, but for noise: what counts is a mean that leans that far to it. */
+static const double THICKEST = 4.0;
 
 static void measure_thickness(const Cells *cells, double thickness[PBMPM_MAX_MATERIALS + 1])
 {

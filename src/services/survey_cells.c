@@ -44,6 +44,11 @@ static void put_share(Cells *cells, uint32_t *count, const Share *share)
     }
     last->filling += share->filling;
     last->falling += share->falling;
+    last->spacing = fmax(last->spacing, share->spacing);
+    for (int a = 0; a < 3; a++) {
+        last->low[a] = fminf(last->low[a], share->low[a]);
+        last->high[a] = fmaxf(last->high[a], share->high[a]);
+    }
 }
 
 void survey_find_cells(const World *world, Cells *cells)
@@ -54,7 +59,11 @@ void survey_find_cells(const World *world, Cells *cells)
         Share share = {.slot = slot, .group = material_is_solid(&world->materials, slot) ? slot + 1 : 0, .thickness = INFINITY};
         const bool near = survey_near_first(p, row, share.cell);
         share.filling = (double)p->mass[row] / (double)world->materials.def[slot].density;
-        for (int a = 0; a < p->dimension; a++) share.falling += share.filling * (double)(p->velocity[a][row] * world->settings.gravity[a]);
+        share.spacing = pow(share.filling, 1.0 / p->dimension);
+        for (int a = 0; a < p->dimension; a++) {
+            share.falling += share.filling * (double)(p->velocity[a][row] * world->settings.gravity[a]);
+            share.low[a] = share.high[a] = p->fraction[a][row];
+        }
         share.place = survey_place_of(&share, 0, true);
         if (near) put_share(cells, &cells->count, &share);
     }
@@ -122,6 +131,13 @@ uint32_t survey_body_of(Cells *cells, uint32_t i)
     return i;
 }
 
+/* Whether matter goes on from a cell to the next along an axis. Particles of one body lie a spacing apart; with two between them there is as much free space. */
+static bool goes_on(const Share *share, const Share *next, int axis)
+{
+    const double apart = 1.0 + (double)next->low[axis] - (double)share->high[axis];
+    return apart < 2.0 * fmax(share->spacing, next->spacing);
+}
+
 void survey_find_bodies(Cells *cells)
 {
     for (uint32_t i = 0; i < cells->count; i++) cells->share[i].body = i;
@@ -131,7 +147,7 @@ void survey_find_bodies(Cells *cells)
             Share next = cells->share[i];
             next.cell[a]++;
             const uint32_t other = survey_find_share(cells, survey_place_of(&next, 0, false));
-            if (other == cells->count) continue;
+            if (other == cells->count || !goes_on(&cells->share[i], &cells->share[other], a)) continue;
             const uint32_t one = survey_body_of(cells, i), two = survey_body_of(cells, other);
             cells->share[one > two ? one : two].body = one > two ? two : one;
         }

@@ -13,6 +13,8 @@ typedef struct Share {
     double filling;   /* rest volume over cell volume */
     double falling;   /* the same times its speed along gravity [m^2/s^3] */
     double thickness; /* least so far */
+    double spacing;   /* [cells] of its particles at rest, the widest */
+    float low[3], high[3]; /* [cells] where its first and its last particle lie in the cell, along each axis */
     uint32_t body;    /* an earlier share of the same body, or itself */
     bool held;        /* an obstacle is where it ends, or other matter below */
     bool borne;       /* of a body's first share: something below bears the body */
@@ -63,7 +65,7 @@ uint32_t survey_find_share(const Cells *cells, uint64_t place);
 /* The first share of the same body. Bodies are found. */
 uint32_t survey_body_of(Cells *cells, uint32_t i);
 
-/* Joins cells of a solid that share a face, in 2D an edge. Sorted by cell. */
+/* Joins cells of a solid that share a face, in 2D an edge, unless two spacings of particles lie between what is in them. Sorted by cell. */
 void survey_find_bodies(Cells *cells);
 
 /* Whether any of a group is in a cell. Sorted by cell. */

@@ -102,7 +102,8 @@ static bool is_supported(const World *world, const Cells *cells, const Share *sh
     return survey_cells_to_obstacle(world, share, along, NEAR) < INFINITY;
 }
 
-/* Cells of free way up to another body, by how full the cells on both sides are; infinitely many if there is none within two cells. Sorted by cell, bodies are found. */
+/* Cells of free way up to another body, whose surfaces are half a spacing beyond their last particles; infinitely many if there is none within two cells. Sorted by cell, bodies
+ * are found. */
 static double gap_above(const World *world, Cells *cells, uint32_t top, int axis, int up)
 {
     enum { NEAR = 3 };
@@ -114,11 +115,20 @@ static double gap_above(const World *world, Cells *cells, uint32_t top, int axis
         for (uint32_t i = survey_first_from(cells, place); i < cells->count && cells->share[i].place >> GROUP_BITS == place >> GROUP_BITS; i++) {
             const Share *other = &cells->share[i];
             if (other->group == 0 || world->materials.def[other->slot].kind == PBMPM_SAND || survey_body_of(cells, i) == body) continue;
-            return fmax(0.0, step + 1.0 - fmin(share->filling, 1.0) - fmin(other->filling, 1.0));
+            const double apart = step + (double)(up > 0 ? other->low[axis] - share->high[axis] : share->low[axis] - other->high[axis]);
+            return fmax(0.0, apart - 0.5 * (share->spacing + other->spacing));
         }
         above.cell[axis] += up;
     }
     return INFINITY;
+}
+
+/* Whether its body ends there, though another one of the same material may begin. Sorted by cell, bodies are found. */
+static bool is_end_of_body(Cells *cells, uint32_t i, int axis, int way)
+{
+    int32_t next[3] = {cells->share[i].cell[0], cells->share[i].cell[1], cells->share[i].cell[2]};
+    next[axis] += way;
+    return survey_below_of(cells, next, survey_body_of(cells, i)) != ITSELF;
 }
 
 bool survey_hangs(const World *world, Cells *cells, int axis, uint32_t slot)
@@ -128,11 +138,11 @@ bool survey_hangs(const World *world, Cells *cells, int axis, uint32_t slot)
     const int down = world->settings.gravity[axis] > 0.0f ? 1 : -1;
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
-        if (share->group == slot + 1 && survey_is_end(cells, share, axis, down) && is_supported(world, cells, share, axis, down)) cells->share[survey_body_of(cells, i)].borne = true;
+        if (share->group == slot + 1 && is_end_of_body(cells, i, axis, down) && is_supported(world, cells, share, axis, down)) cells->share[survey_body_of(cells, i)].borne = true;
     }
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
-        if (share->group != slot + 1 || cells->share[survey_body_of(cells, i)].borne || !survey_is_end(cells, share, axis, -down)) continue;
+        if (share->group != slot + 1 || cells->share[survey_body_of(cells, i)].borne || !is_end_of_body(cells, i, axis, -down)) continue;
         if (gap_above(world, cells, i, axis, -down) < STUCK) return true;
     }
     return false;

@@ -178,7 +178,8 @@ static void test_a_body_that_hangs_on_another(void)
         float gap;
         bool floor, sand, same, told;
     } cases[] = {{0, false, false, false, true},  {1, false, false, false, true}, {2, false, false, false, false}, {3, false, false, false, false},
-                 {1, true, false, false, false},  {1, false, true, false, false}, {1.5f, false, false, true, true}, {2, false, false, true, false}};
+                 {1, true, false, false, false},  {1, false, true, false, false}, {1.5f, false, false, true, true}, {2, false, false, true, false},
+                 {1.2f, false, false, true, true}, {0.8f, false, false, true, true},  {0, false, false, true, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_id world = falling_world(2, 0.05f);
         const pbmpm_material_id held = create_material(world, PBMPM_ELASTIC), free_one = cases[i].same ? held : create_material(world, cases[i].sand ? PBMPM_SAND : PBMPM_ELASTIC);

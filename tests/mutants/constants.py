@@ -93,7 +93,7 @@ def page(found: list[Constant], verdicts: dict[str, dict[str, str]]) -> str:
     tried = sum(len(verdicts.get(constant.key, {})) for constant in found)
     quiet = [constant for constant in found if "none" in verdicts.get(constant.key, {}).values()]
     tried_out = by_trial(found)
-    lines = [HEAD, f"{len(found)} constants, {len(tried_out)} of them by trial; {tried} of {2 * len(found)} changes tried. With {len(quiet)} constants no test noticed one of the changes at least."]
+    lines = [HEAD, f"{len(found)} constants, {len(tried_out)} of them by trial; {tried} of {2 * len(found)} changes tried. For {len(quiet)} constants at least one change turned no test red."]
     for room, own in rooms.items():
         lines += ["", f"## {room}", "", "| Name | Value | What it is for | Halved | Doubled |", "|---|---|---|---|---|"]
         for constant in own:

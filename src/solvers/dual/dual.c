@@ -31,19 +31,16 @@ static bool shares_world(const World *world)
     return solver_holds_liquid(world) ? bodies || solver_holds_sand(world) : bodies && solver_holds_sand(world);
 }
 
-/* Steps of the guess before the iterations, for liquids and sand; by trial. Three carry pressure through a pool of some 12 cells. A fourth calms two floors of
- * tests/field (ridge_15 from 24 to 2 mm/s, shelf from 16 to 2) and stirs others (ball from 14 to 21, drips from 74 to 108). It costs a tenth of a step, and heaps of
- * sand flatten by two degrees more. Without gravity any guess does harm in free flight, where few iterations follow. Before a single one it does to liquid; but sand that nothing else
- * bears was crushed to a tenth at 60 Hz x 1, and stands with it. */
+/* Steps of the guess before the iterations, for liquids and sand. Without gravity any guess does harm in free flight, where no more iterations follow than it takes.
+ * Before a single one it does to liquid; but sand that nothing else bears was crushed to a tenth at 60 Hz x 1, and stands with it. */
 static int guess_iterations(const World *world)
 {
-    enum { MOST_STEPS = 3, FEW_STEPS = 4 };
     const int iterations = world->settings.iterations;
     if (!joint_is_chosen(world)) {
         if (!solver_holds_sand(world) && (!solver_holds_liquid(world) || iterations == 1)) return 0;
-        if (iterations < FEW_STEPS && gravity_strength(world) == 0.0) return 0;
+        if (iterations <= LEADING_STEPS && gravity_strength(world) == 0.0) return 0;
     }
-    return iterations < MOST_STEPS ? iterations : MOST_STEPS;
+    return iterations < LEADING_STEPS ? iterations : LEADING_STEPS;
 }
 
 /* Pressure carried over without a guess is integral control: unstable where the solution is truncated. Half of it was stable at any number of

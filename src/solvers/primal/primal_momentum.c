@@ -32,16 +32,15 @@ static void take_out(const double direction[3], double v[3])
     for (int a = 0; a < 3; a++) v[a] -= part * direction[a];
 }
 
-/* The body may not move along this normal. */
-static void block_normal(BodyMove *move, const float *normal)
+void primal_block_normal(double blocked[3][3], int *count, const float normal[3])
 {
     static const double NEW = 1e-3; /* sine of the angle to what is blocked already */
     double n[3] = {(double)normal[0], (double)normal[1], (double)normal[2]};
-    for (int k = 0; k < move->blocked; k++) take_out(move->normal[k], n);
+    for (int k = 0; k < *count; k++) take_out(blocked[k], n);
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    if (length < NEW || move->blocked == 3) return;
-    for (int a = 0; a < 3; a++) move->normal[move->blocked][a] = n[a] / length;
-    move->blocked++;
+    if (length < NEW || *count == 3) return;
+    for (int a = 0; a < 3; a++) blocked[*count][a] = n[a] / length;
+    ++*count;
 }
 
 static BodyMove *move_of(const Primal *p, int32_t block)
@@ -62,7 +61,7 @@ static void find_blocked(const Primal *p)
             const float *u = p->best + (size_t)block * (size_t)p->floats + (size_t)contact->node * W;
             if (!contact->active && (double)constraints_room(contact, u) > move->longest) continue;
             if (constraints_stick(contact)) move->blocked = 3;
-            else block_normal(move, contact->normal);
+            else primal_block_normal(move->normal, &move->blocked, contact->normal);
         }
 }
 
@@ -203,7 +202,6 @@ static void keep_rotations(Primal *p)
 
 void primal_keep_momentum(Primal *p, BodyTest *chosen)
 {
-    enum { STEPS = 3 }; /* with its secant for a stiffness steps fall short, never too far: the rest waits for the next substep */
     const PrimalState *state = &p->world->primal;
     const BodySum *body = state->body_sums.data;
     BodyMove *move = state->moves.data;
@@ -226,7 +224,7 @@ void primal_keep_momentum(Primal *p, BodyTest *chosen)
         move[i].longest = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]) / fmax(move[i].mass, 1e-30);
     }
     find_blocked(p);
-    for (int step = 0; step < (p->rubs ? STEPS : 1); step++) move_on(p);
+    for (int step = 0; step < (p->rubs ? RUB_STEPS : 1); step++) move_on(p);
     primal_over_blocks(p, move_body);
     keep_rotations(p);
 }

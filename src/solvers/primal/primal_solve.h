@@ -296,6 +296,12 @@ void primal_widen_gaps(Primal *p);
 /* Moves bodies with liquid that lean on something as a whole, as far as their forces ask for it. Uses p->right and p->direction. */
 void primal_balance_momentum(Primal *p);
 
+/* Adds a normal to the directions that a body may not move along, which are orthonormal, unless these hold it already. */
+void primal_block_normal(double blocked[3][3], int *count, const float normal[3]);
+
+/* Steps by which a body that rubs finds its way: with the secant of friction for a stiffness they fall short, never too far. The rest waits for the next substep. */
+enum { RUB_STEPS = 3 };
+
 /* Gives the chosen bodies, all if the test is null, the momentum that an unfinished solution kept from them, as far as they may move. */
 void primal_keep_momentum(Primal *p, BodyTest *chosen);
 

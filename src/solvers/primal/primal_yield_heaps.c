@@ -183,19 +183,10 @@ static void over_outside(Primal *p, HeapContact *visit)
 /* Along what normals a heap may not go: those of contacts that hold, and of those that it might run into. */
 static void block_contact(const Primal *p, const Contact *contact, const float *u, YieldHeap *heap)
 {
-    static const double NEW = 1e-3; /* sine of the angle to what is blocked already */
-    double n[3] = {(double)contact->normal[0], (double)contact->normal[1], (double)contact->normal[2]};
     (void)p;
     if (!contact->active && (double)constraints_room(contact, u) > sqrt(dot3(heap->missing, heap->missing)) / fmax(heap->mass, 1e-30)) return;
     if (constraints_stick(contact)) heap->stays = true;
-    for (int k = 0; k < heap->blocked; k++) {
-        const double part = dot3(heap->normal[k], n);
-        for (int a = 0; a < 3; a++) n[a] -= part * heap->normal[k][a];
-    }
-    const double length = sqrt(dot3(n, n));
-    if (length < NEW || heap->blocked == 3) return;
-    for (int a = 0; a < 3; a++) heap->normal[heap->blocked][a] = n[a] / length;
-    heap->blocked++;
+    primal_block_normal(heap->normal, &heap->blocked, contact->normal);
 }
 
 static void rub_contact(const Primal *p, const Contact *contact, const float *u, YieldHeap *heap)
@@ -237,11 +228,10 @@ static void move_heap(Primal *p, int32_t block, size_t begin, size_t end, double
 
 static void keep_heaps(Primal *p)
 {
-    enum { STEPS = 3 }; /* as in primal_keep_momentum() */
     find_heaps(p);
     weigh_heaps(p);
     over_outside(p, block_contact);
-    for (int step = 0; step < STEPS; step++) find_way(p);
+    for (int step = 0; step < RUB_STEPS; step++) find_way(p);
     primal_over_blocks(p, move_heap);
     for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         const YieldHeap *heap = heap_of(p, b);
