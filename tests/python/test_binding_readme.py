@@ -19,10 +19,11 @@ def test_the_examples_of_the_readme_run(root: Path, capsys: pytest.CaptureFixtur
     for example in re.findall(r"```python\n(.*?)```", text, re.DOTALL):
         exec(compile(example, "README.md", "exec"), names)
         printed.append(capsys.readouterr().out.splitlines())
-    (figures, highest), (under,), (solver,) = printed[:3]
+    (figures, highest), (under,), (solver,), _, (along,) = printed[:5]
     assert figures.endswith("[]") and 0 < float(highest) < 1
     assert 0.1 < float(under) < 0.9  # the boat swims, and still bobs
     assert "Stop.ITERATIONS" in solver
+    assert 0.6 < float(along) < 2.0  # it began at 0.2
 
 
 def test_the_example_of_the_module_runs() -> None:

@@ -50,6 +50,9 @@ WRONG_WORDS: dict[str, tuple[Callable[[Any], None], str]] = {
     "extents": (lambda data: data["fills"][0]["shape"].update(half_extents=0.2), "fills[0].shape.half_extents: needs 2 numbers in brackets, one per axis"),
     "extent": (lambda data: data["fills"][0]["shape"].update(half_extents=[0.1]), "fills[0].shape.half_extents: needs 2 numbers in brackets, one per axis"),
     "dimension": (lambda data: data.update(dimension=4), "dimension: 4 is not one of 2 or 3"),
+    "word for a number": (lambda data: data.update(cell_size="wide"), 'cell_size: must be a valid number, not "wide"'),
+    "number out of range": (lambda data: data.update(cell_size=-1), "cell_size: must be greater than or equal to 0.000001, not -1"),
+    "broken number": (lambda data: data.update(iterations=2.5), "iterations: must be a valid integer, not 2.5"),
 }
 
 
@@ -138,3 +141,17 @@ def test_what_is_spelt_right_is_as_before() -> None:
     assert pbmpm.Box((0, 0), (1, 1)) == pbmpm.Box(position=(0, 0), half_extents=(1, 1))
     with pytest.raises(TypeError, match="positional"):
         pbmpm.Box()  # type: ignore[call-arg]
+
+
+def test_advice_tells_without_a_step_what_a_run_tells_before_it(scene: Callable[..., Path]) -> None:
+    path = str(scene(lambda data: None))
+    asked = CliRunner().invoke(cli, ["advice", path, "--rate", "60"]).output.splitlines()
+    ran = CliRunner().invoke(cli, ["run", path, "--rate", "60", "--seconds", "0.05"])
+    assert asked and [f"advice: {line}" for line in asked] == ran.stderr.splitlines()[: len(asked)]
+    report = json.loads(CliRunner().invoke(cli, ["advice", path, "--rate", "60", "--json", "-"]).stdout)
+    assert [row["text"] in line for row, line in zip(report["advice"], asked, strict=True)] == [True] * len(asked)
+
+
+def test_advice_says_where_nothing_is_foreseen(scene: Callable[..., Path]) -> None:
+    told = CliRunner().invoke(cli, ["advice", str(scene(lambda data: None)), "--solver", "convergent", "--rate", "240"])
+    assert told.exit_code == 0 and told.output.startswith("nothing is foreseen")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import pbmpm
@@ -58,10 +59,19 @@ class AdviceWatch:
         return [{**_row(self._simulation, item), "time_s": time} for item, time in self._told()]
 
 
-def scene_advice(scene: Scene, settings: RunSettings) -> list[str]:
+@dataclass(frozen=True)
+class SceneAdvice:
+    """Of a scene, in words that name its own parts, one line each; and the same for reports."""
+
+    lines: list[str]
+    rows: list[dict[str, Any]]
+
+
+def scene_advice(scene: Scene, settings: RunSettings) -> SceneAdvice:
     """What is foreseen of a scene before its first step."""
     with Simulation(scene, settings) as simulation:
-        return advice_lines(simulation, simulation.advice())
+        found = simulation.advice()
+        return SceneAdvice(advice_lines(simulation, found), advice_rows(simulation, found))
 
 
 def _key(item: pbmpm.Advice) -> tuple[Any, ...]:

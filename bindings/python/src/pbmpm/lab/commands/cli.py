@@ -11,6 +11,7 @@ import click
 
 from ..errors import InputError
 from .accuracy import accuracy
+from .advice import advice
 from .bench import bench
 from .effects import effects
 from .options import EXIT_INTERRUPTED, EXIT_USAGE
@@ -25,7 +26,7 @@ def cli() -> None:
     """Simulate liquids, elastic bodies, sand and yielding matter with the Position Based Material Point Method, and measure the result."""
 
 
-for command in (accuracy, bench, effects, run, stability, tune):
+for command in (accuracy, advice, bench, effects, run, stability, tune):
     cli.add_command(command)
 
 

@@ -11,7 +11,7 @@ import click
 
 from ..errors import InputError
 from ..hints import not_one_of
-from .options import EXIT_CHECK_FAILED, JSON_HELP, OutputFile, emit_json, run_settings, solver_options
+from .options import EXIT_CHECK_FAILED, JSON_HELP, OutputFile, emit_json, pace_options, run_settings, solver_options
 
 DEFAULT_SCENE = "workshop_2d.json"
 """A file of the package, the one of the samples."""
@@ -28,8 +28,7 @@ LONGEST_SETTLING = 2.0
 )
 @click.option("--rounds", type=click.IntRange(3, 1001), default=15, show_default=True, help="Turns of each comparison.")
 @click.option("--only", metavar="e1,e2,...", help="Effects to measure.  [default: all]")
-@click.option("--rate", type=click.FloatRange(0.1, 1e6), help="Steps per simulated second.  [default: the scene's]")
-@click.option("--iterations", type=click.IntRange(1, 1000), help="Iterations per substep.  [default: the scene's]")
+@pace_options
 @solver_options
 @click.option("--threads", type=click.IntRange(1, 256), default=1, show_default=True, help="Threads.")
 @click.option("--list", "only_list", is_flag=True, help="List the effects, with those of the scene marked, and end.")
@@ -75,7 +74,7 @@ def effects(
         save_chart(report, chart)
     if json_target != "-":
         click.echo(text_of(report))
-        for line in scene_advice(scene, settings):
+        for line in scene_advice(scene, settings).lines:
             click.echo(f"advice: {line}")
         if chart is not None:
             click.echo(f"chart: {chart}")

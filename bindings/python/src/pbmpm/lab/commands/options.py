@@ -124,6 +124,22 @@ class NameList(click.ParamType):
         return tuple(word for word in self._words if word in wanted)
 
 
+def pace_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options that say how often the equations are solved; None where the scene decides."""
+    options = (
+        click.option("--rate", type=click.FloatRange(0.1, 1e6), help="Steps per simulated second.  [default: the scene's]"),
+        click.option("--iterations", type=click.IntRange(1, 1000), help="Iterations per substep.  [default: the scene's]"),
+        click.option("--substeps", type=click.IntRange(1, 256), help="Substeps per step.  [default: the scene's]"),
+    )
+    return _with_options(command, options)
+
+
+def _with_options(command: Callable[..., Any], options: Sequence[Callable[..., Any]]) -> Callable[..., Any]:
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
 def solver_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options that say how the equations are solved; None where the scene decides."""
     options = (
@@ -144,9 +160,7 @@ def solver_options(command: Callable[..., Any]) -> Callable[..., Any]:
             help="Iterate for this wall time per step [ms]; 0: off. Not deterministic.",
         ),
     )
-    for option in reversed(options):
-        command = option(command)
-    return command
+    return _with_options(command, options)
 
 
 class Address(click.ParamType):

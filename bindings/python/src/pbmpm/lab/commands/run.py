@@ -10,7 +10,7 @@ import click
 
 from ..errors import InputError
 from ..meshes import MESH_FORMATS
-from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile, OutputFolder, TimeList, emit_json, ready_folder, run_settings, solver_options
+from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile, OutputFolder, TimeList, emit_json, pace_options, ready_folder, run_settings, solver_options
 
 
 @click.command()
@@ -18,9 +18,7 @@ from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile,
 @click.option(
     "--seconds", type=click.FloatRange(0, 1e6, min_open=True), help="Simulated time [s].  [default: the scene's]"
 )
-@click.option("--rate", type=click.FloatRange(0.1, 1e6), help="Steps per simulated second.  [default: the scene's]")
-@click.option("--iterations", type=click.IntRange(1, 1000), help="Iterations per substep.  [default: the scene's]")
-@click.option("--substeps", type=click.IntRange(1, 256), help="Substeps per step.  [default: the scene's]")
+@pace_options
 @solver_options
 @click.option(
     "--preset",

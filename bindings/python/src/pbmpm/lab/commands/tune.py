@@ -106,7 +106,7 @@ def tune(
     if json_target != "-":
         click.echo(text_of(tuning, made, paths))
         for level, preset in made.items():
-            for line in scene_advice(scene, RunSettings.of(scene, plan.threads, **preset.settings.changes())):
+            for line in scene_advice(scene, RunSettings.of(scene, plan.threads, **preset.settings.changes())).lines:
                 click.echo(f"advice at '{level}': {line}")
         click.echo(f"chart: {folder / 'chart.png'}")
     if "high" in made and (made["high"].ms_p99 or 0.0) > plan.budget_ms:

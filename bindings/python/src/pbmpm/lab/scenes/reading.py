@@ -60,6 +60,8 @@ def describe_problems(error: ValidationError, data: Any, source: str) -> str:
             message = f"needs {data.get('dimension', '2 or 3')} numbers in brackets, one per axis"
         elif item["type"] == "missing":
             message = "this field is required"
+        elif isinstance(item["input"], str | int | float | bool | None) and item["type"] != "value_error":
+            message = f"{message.replace('Input should be', 'must be')}, not {json.dumps(item['input'])}"
         lines.append(f"{source}: {_field_path(item['loc'], data)}: {message}")
     return "\n".join(dict.fromkeys(lines))
 
@@ -93,7 +95,7 @@ def _field_path(location: tuple[int | str, ...], data: Any) -> str:
             continue
         path += f"[{step}]" if isinstance(step, int) else f".{step}" if path else step
         data = data[step] if known else None
-    return path or "(whole file)"
+    return path or "the scene"
 
 
 def _holds(data: Any, step: int | str) -> bool:
