@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
+
 /* How far from a surface [cells] a node that was put onto it may be, by rounding. */
 static const float SURFACE_ROUNDING = 1e-5f;
 
@@ -232,9 +234,6 @@ bool constraints_have_friction(const ContactFrame *frame)
     return false;
 }
 
-/* Normals closer than this are one direction: a plane, a side of a box, a part of a ball. By trial. */
-static const float ONE_DIRECTION = 0.9f;
-
 static int group_for(BodyFriction *body, const float *normal)
 {
     int nearest = 0;
@@ -244,7 +243,7 @@ static int group_for(BodyFriction *body, const float *normal)
         if (cosine > most) nearest = g;
         most = fmaxf(most, cosine);
     }
-    if (most >= ONE_DIRECTION || body->groups == FRICTION_GROUPS) return nearest;
+    if (most >= (float)SAME_DIRECTION || body->groups == FRICTION_GROUPS) return nearest; /* of a plane, a side of a box, a part of a ball */
     memcpy(body->group[body->groups].normal, normal, sizeof body->group->normal);
     return body->groups++;
 }

@@ -447,12 +447,11 @@ int field_outer_faces(const Near *near, const double point[3], double reach, Fac
 
 bool field_opposite(const Near *near, const double point[3], const Face *face, Face *other)
 {
-    static const double OPPOSITE = -0.9; /* cosine: within 26 degrees of back to back; by trial */
     Face all[CANDIDATES];
     const int candidates = faces_around(near, point, NODE_REACH, all);
     bool found = false;
     for (int i = 0; i < candidates; i++) {
-        if (all[i].distance > 0.5 || dot3(all[i].normal, face->normal) > OPPOSITE || !bounds_space(near, &all[i])) continue;
+        if (all[i].distance > 0.5 || dot3(all[i].normal, face->normal) > -SAME_DIRECTION || !bounds_space(near, &all[i])) continue;
         if (found && all[i].distance <= other->distance) continue;
         *other = all[i];
         found = true;
@@ -462,7 +461,7 @@ bool field_opposite(const Near *near, const double point[3], const Face *face, F
         double beyond[3], normal[3];
         ahead(near, point, -way, face->normal, beyond);
         const double distance = solid_distance(field_solid(near, face->obstacle), beyond, normal) / near->cell_size;
-        if (distance <= 0.0 || dot3(normal, face->normal) > OPPOSITE) continue;
+        if (distance <= 0.0 || dot3(normal, face->normal) > -SAME_DIRECTION) continue;
         *other = face_at(near, face->obstacle, beyond, distance, normal);
         other->distance = distance_to(near, other, point);
         found = is_open(near, beyond);
@@ -492,13 +491,12 @@ double field_spline(double x)
  * along turned axes. */
 static double box_share(const Near *near, const Solid *s, const double point[3], const Face *before)
 {
-    static const double ALONG = 0.9; /* cosine: within 26 degrees of an axis of the box; by trial */
     double local[3], normal[3], share = 1.0;
     along_axes(s, point, local);
     for (int a = 0; a < s->dimension; a++) {
         box_normal(s, a, 1.0, normal);
         const double along = before ? dot3(normal, before->normal) : 0.0;
-        const double high = along < -ALONG ? INFINITY : s->half_extents[a], low = along > ALONG ? -INFINITY : -s->half_extents[a];
+        const double high = along < -SAME_DIRECTION ? INFINITY : s->half_extents[a], low = along > SAME_DIRECTION ? -INFINITY : -s->half_extents[a];
         share *= field_spline_below((high - local[a]) / near->cell_size) - field_spline_below((low - local[a]) / near->cell_size);
     }
     return share;
