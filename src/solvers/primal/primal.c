@@ -323,10 +323,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
     Primal p = begin_solve(world, contacts, false);
     lead(&p);
     minimise(&p);
-    if (p.joint)
-        primal_balance_momentum(&p);
-    else
-        primal_let_fly(&p);
+    if (p.joint) primal_balance_momentum(&p);
     primal_keep_momentum(&p, NULL);
     primal_keep_energy(&p);
     primal_find_kept(&p);

@@ -25,7 +25,6 @@ typedef struct BodySum {
     double elastic;           /* energy of the elastic particles */
     double pressed, pressed_rest; /* energy of the joint solver's liquid, and at D = 0 */
     double kinetic, moved[3]; /* of the solution: energy, and momentum */
-    double rise;              /* of its energy, where its loose nodes fly: see primal_let_fly() */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
     bool leans;               /* on an obstacle */
@@ -275,9 +274,6 @@ void primal_find_shares(World *world, BlockShare *find);
 double primal_fastest(const World *world);
 
 /* ---- primal_liquid.c ---- */
-
-/* Takes from loose liquid what an unfinished solution moves it by that no force does. */
-void primal_let_fly(Primal *p);
 
 /* Finds how much of their velocities bodies with liquid may keep, and pulls back those for which that is not enough. */
 void primal_find_kept(Primal *p);
