@@ -206,7 +206,6 @@ static bool eddies_pay(const Primal *p, const BodySum *body, double gain)
  * 1 - s^2 the gain over that kinetic energy. In the joint solver eddies pay. Returns how many failed bodies are left. */
 static uint32_t let_pay(Primal *p)
 {
-    static const double MOST = 0.5; /* of that kinetic energy: more would take most of its speed: then it starts again instead; by trial */
     const PrimalState *state = &p->world->primal;
     RigidBody *rigid = state->rigid.data;
     BodySum *body = state->body_sums.data;
@@ -215,7 +214,7 @@ static uint32_t let_pay(Primal *p)
         const BodySum *b = &body[i];
         if (!b->failed) continue;
         const double gain = b->after - b->before - b->work, own = primal_own_motion(b);
-        const bool pays = rigid[i].turns && gain <= MOST * own;
+        const bool pays = rigid[i].turns && gain <= own;
         if (pays) {
             rigid[i].kept = sqrt(1.0 - gain / own);
             for (int c = 0; c < 3; c++) rigid[i].mean[c] = b->moved[c] / b->mass;

@@ -7,7 +7,7 @@
  *
  *     s^2 = 1 - gain / kinetic energy,   gain = K(u) - m g.u + Psi(u) - K(u* - g) - Psi(0) - work of moving surfaces.
  *
- * A solution that gained more than its kinetic energy is first moved towards the body's start. In the joint solver pressures are the dual's, and eddies pay for what
+ * A solution that gained more than its kinetic energy is given up for the body's start. In the joint solver pressures are the dual's, and eddies pay for what
  * they gain: eddy_damping.h. */
 #include <float.h>
 #include <math.h>
@@ -119,13 +119,15 @@ static void damp_eddies(Primal *p)
 
 void primal_find_kept(Primal *p)
 {
-    enum { HALVINGS = 3 }; /* to an eighth of the way; what cannot pay even that goes back to where it started from; by trial */
     if (!solver_holds_liquid(p->world)) return;
     if (p->joint) {
         damp_eddies(p);
         return;
     }
-    for (int halving = 0; halving <= HALVINGS && !all_can_pay(p); halving++) primal_pull_back_to(p, halving < HALVINGS ? 0.5f : 0.0f);
+    if (!all_can_pay(p)) {
+        primal_pull_back_to(p, 0.0f);
+        all_can_pay(p);
+    }
     earn(p);
 }
 

@@ -16,8 +16,6 @@
 static const double ARMIJO = 1e-4;          /* share of the promised decrease of energy that is enough */
 static const double SLOPE_SHARE = 0.8;      /* share of the first slope, either way, that the last one may have */
 static const double SMALLEST_STEP = 1e-6;   /* share of a step: below, displacements change by their rounding */
-static const float LOOSE = 10.0f;            /* stiffness over mass with which a node of a liquid joins half in the levels' corrections; by trial, see share_of_levels() */
-static const float JOINS_MIN = 1e-20f;      /* of the levels' corrections: less is none, and no float may overflow */
 static const double CURVATURE_MIN = 1e-6;   /* cosine between a step and the change of the gradient */
 
 enum { LANES = 4 * W }; /* floats that a pass takes at once, four nodes; every block is a multiple of it */
@@ -168,34 +166,21 @@ void primal_evaluate(Primal *p)
 
 void primal_evaluate_first(Primal *p, Loops *loops) { evaluate_after(p, loops, p->world->kernels->force_first); }
 
-/* Levels straddle what has come apart: a droplet that feels no pressure would be flung by the correction of matter around it that does. So nodes of
- * a body with liquid take part by the share k / (m LOOSE + k), k their stiffness: where sound crosses some cells per substep a tenth of a node's mass
- * under pressure already makes k larger than m, and what is flung then is the rest. Solids always have stiffness. LOOSE is by trial, on liquids crushed
- * between boxes: with 1 droplets are flung still, with 20 pools take longer to come to rest. */
-static float share_of_levels(const Primal *p, const BodySum *body, size_t node)
-{
-    if (!body->with_liquid) return 1.0f;
-    const float inert = p->base[node * W + 3] * ((const float *)p->world->primal.inverse.data)[node]; /* m / (m + k) */
-    return fmaxf(0.0f, 1.0f - inert) / (1.0f + (LOOSE - 1.0f) * inert);
-}
-
 /* The preconditioner's N = m + k, the nodes' mass and stiffness; and for the multilevel one the mass per axis, which where a node is held is
  * the stiffness of the jump, and the stiffness. Not less than the mass: a contact that holds now may let go in a later step, and liquid
  * that has come apart has no stiffness. These stand in p->change[0] and [1] while there are no pairs. After the first pass and
  * constraints_find_active(). */
 void primal_weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    const BodySum *body = primal_body_of(p, block);
     float *inverse = p->world->primal.inverse.data, *share = p->step[0], *weight = p->change[0], *stiff = p->change[1];
     memset(share + begin, 0, (end - begin) * sizeof *share);
     constraints_held_share(p->contacts, share, block, block + 1);
     for (size_t i = begin; i < end; i += W) {
         const float mass = p->base[i + 3], stiffness = p->force[i + 3];
         inverse[i / W] = mass > 0.0f ? 1.0f / (mass + stiffness) : 0.0f;
-        const float joins = share_of_levels(p, body, i / W), counts = joins * joins;
-        for (size_t c = 0; c < 3; c++) weight[i + c] = counts * (mass + share[i + c] * fmaxf(stiffness - mass, 0.0f));
-        weight[i + 3] = counts * mass;
-        stiff[i / W] = counts * stiffness;
+        for (size_t c = 0; c < 3; c++) weight[i + c] = mass + share[i + c] * fmaxf(stiffness - mass, 0.0f);
+        weight[i + 3] = mass;
+        stiff[i / W] = stiffness;
         sum[0] += (double)mass;
         sum[1] += (double)stiffness;
     }
@@ -352,15 +337,11 @@ void primal_accept(Primal *p, BodyTest *chosen)
 static void join_levels(Primal *p, int32_t block, size_t begin, size_t end)
 {
     const float *inverse = p->world->primal.inverse.data;
-    const BodySum *body = primal_body_of(p, block);
     const float *restrict right = p->right;
-    float *restrict joining = p->force, *restrict direction = p->direction;
-    for (size_t i = begin; i < end; i += W) {
-        const float joins = share_of_levels(p, body, i / W);
-        const float own = joins > JOINS_MIN ? inverse[i / W] / joins : 0.0f; /* project_direction() multiplies it with what the levels add */
-        for (size_t c = 0; c < W; c++) joining[i + c] = joins * right[i + c];
-        for (size_t c = 0; c < W; c++) direction[i + c] = own * right[i + c];
-    }
+    float *restrict direction = p->direction;
+    memcpy(p->force + begin, right + begin, (end - begin) * sizeof *right);
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = 0; c < W; c++) direction[i + c] = inverse[i / W] * right[i + c];
     if (p->rubs) constraints_soften(p->contacts, p->best, inverse, direction, p->slip_min, block);
 }
 
@@ -406,13 +387,10 @@ static void add_rigid(Primal *p, int32_t block, size_t begin, size_t end, double
 static void project_direction(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const float *inverse = p->world->primal.inverse.data;
-    const BodySum *body = primal_body_of(p, block);
     const Search *search = primal_search_of(p, block);
     if (search->phase != SEARCH_SEEKS) return;
-    for (size_t i = begin; i < end; i += W) {
-        const float joins = inverse[i / W] > 0.0f ? share_of_levels(p, body, i / W) : 0.0f;
-        for (size_t c = 0; c < W; c++) p->direction[i + c] = joins > JOINS_MIN ? joins * p->direction[i + c] : inverse[i / W] * p->right[i + c];
-    }
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = 0; c < W && !(inverse[i / W] > 0.0f); c++) p->direction[i + c] = 0.0f; /* the levels reach beyond matter */
     constraints_remove(p->contacts, p->direction, block, block + 1);
     if (p->rigid)
         primal_sum_inertia(p, block, begin, end, sum);
