@@ -252,7 +252,7 @@ static const double AT_SURFACE = 1e-3; /* [cells] before a surface: there a way 
 /* A node behind a thin wall moves as if nothing were before it, and carries along what lies before the wall: particles may arrive on the other
  * side without ever having been inside. Their way is followed through the distances of the obstacle, at the end of the substep (sphere
  * tracing: J. Hart, "Sphere tracing", The Visual Computer 12, 1996). Shorter ways than these end inside, where they are noticed. */
-static const double LONGEST_UNSEEN = 0.5, LONGEST_UNSEEN_BAKED = 0.25; /* [cells]; by trial. */
+static const double LONGEST_UNSEEN = 0.5, LONGEST_UNSEEN_BAKED = 0.25; /* [cells]; by trial */
 static const double SHALLOW = 0.75; /* of the way to the middle of an obstacle: what ends there is nearer to the face that it came through, in spite of roundings */
 static const double NUDGED_MOST = 0.1; /* [cells]: what crowded particles move beside their way */
 static const double CARRIED_MOST = 1.0; /* [cells per substep]: what an obstacle that is faster lands on is not carried along; by trial */
