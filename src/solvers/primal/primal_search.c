@@ -16,6 +16,7 @@
 static const double ARMIJO = 1e-4;          /* share of the promised decrease of energy that is enough */
 static const double SLOPE_SHARE = 0.8;      /* share of the first slope, either way, that the last one may have */
 static const double SMALLEST_STEP = 1e-6;   /* share of a step: below, displacements change by their rounding */
+static const double TOO_LONG = 0.4;         /* of the first slope, that the last one may have on the other side where nothing comes after it; by trial */
 static const double CURVATURE_MIN = 1e-6;   /* cosine between a step and the change of the gradient */
 
 enum { LANES = 4 * W }; /* floats that a pass takes at once, four nodes; every block is a multiple of it */
@@ -56,7 +57,8 @@ static bool joined_is(const Primal *p, SearchPhase phase) { return p->joined && 
 
 void primal_open_searches(Primal *p)
 {
-    for (int32_t i = 0; i < p->world->grid.bodies; i++) p->search[i] = (Search){.own = i};
+    const BodySum *body = p->world->primal.body_sums.data;
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) p->search[i] = (Search){.own = i, .with_liquid = body[i].with_liquid};
     p->joined = primal_yield_join(p);
 }
 
@@ -525,11 +527,14 @@ static bool is_good(const Search *search)
     return rounding && search->slope_before < 0.0 && fabs(search->slope_after) <= SLOPE_SHARE * fabs(search->slope_before);
 }
 
+/* Whether the step went far beyond the lowest point on its way. */
+static bool is_too_long(const Search *search) { return search->slope_after > TOO_LONG * fabs(search->slope_before); }
+
 /* How much of a step that was too long is tried next: where the slope would vanish if it changed evenly. */
 static float shorter(const Search *search)
 {
     const double vanishes = search->slope_before / (search->slope_before - search->slope_after);
-    return isfinite(vanishes) ? (float)fmin(0.5, fmax(0.1, vanishes)) : 0.1f;
+    return isfinite(vanishes) ? (float)fmin(is_good(search) ? 1.0 : 0.5, fmax(0.1, vanishes)) : 0.1f;
 }
 
 /* Near the lowest point the differences of gradients are rounding, and a direction made of such pairs may lead nowhere and be a hundred times too long. Where no step along
@@ -543,11 +548,13 @@ static void give_up(Primal *p, Search *search)
         search->phase = SEARCH_ENDED;
 }
 
-/* What a search does after its step was tried. */
+/* What a search does after its step was tried. A single iteration of a liquid has no other after it that mends what it did too much of: with one more evaluation it
+ * is shortened. */
 static void judge(Primal *p, Search *search)
 {
-    search->passes++;
-    if (is_good(search)) {
+    const bool good = is_good(search), shortens = search->passes++ == 0 && search->most == 1 && search->with_liquid && good && is_too_long(search);
+    if (shortens) search->most++;
+    if (good && !shortens) {
         search->phase = SEARCH_ACCEPTS;
         return;
     }

@@ -78,6 +78,7 @@ typedef enum SearchPhase {
 /* The search for the lowest energy of one body, or of those that rigid bodies join. */
 typedef struct Search {
     int32_t own;           /* the body whose search it is: that of all it is joined with */
+    bool with_liquid;
     bool plain;            /* its next direction begins from the gradient, without pairs */
     SearchPhase phase;
     int pairs, newest;     /* how many steps it remembers, and the place of the newest */
