@@ -65,7 +65,7 @@ static bool one_wall(const Face *a, const Face *b)
 }
 
 /* Whether the wall at one node goes on at another: with a slight turn, or round an outer edge. Where it meets another in an inner edge, nodes have the faces of both. */
-static bool goes_on(const ContactFrame *frame, const Bound *here, const Bound *there)
+static bool wall_goes_on(const ContactFrame *frame, const Bound *here, const Bound *there)
 {
     const Face *face = &here->face[0], *other = &there->face[0];
     double before = 0.0; /* the one's foot, before the other's plane */
@@ -112,7 +112,7 @@ static Turn turn_of(const Builder *b, const Bound *bound)
             const int64_t other = grid_node_beside(grid, bound->block, bound->local, way);
             const Bound *beside = other == GRID_NOWHERE ? NULL : bound_at(b, other);
             double distance = face->distance + side * face->normal[a];
-            if (beside && goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
+            if (beside && wall_goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
             const bool across = bound->thin && distance < 0.0; /* its gap is that of the wall's other side */
             if (!beside && !across && other != GRID_NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
             smooth = smooth && beside && dot3(face->normal, beside->face[0].normal) > SMOOTH;
@@ -268,7 +268,7 @@ static bool add_corners(Builder *b, const Bound *bound, const Image *image, cons
             const double *n = profile[j].normal;
             off[k][j] = profile[j].distance + offset[0] * n[0] + offset[1] * n[1] + offset[2] * n[2];
         }
-        if (other && goes_on(b->frame, bound, other)) off[k][0] = other->face[0].distance;
+        if (other && wall_goes_on(b->frame, bound, other)) off[k][0] = other->face[0].distance;
         bool free = !(other && other->face[0].distance < WET_CLEAR);
         for (int j = 0; j < count; j++) free = free && off[k][j] >= WET_CLEAR;
         if (image->before && !free) continue;

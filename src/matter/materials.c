@@ -40,7 +40,7 @@ pbmpm_material_def material_defaults(void)
                                 .density = 1000.0f,
                                 .relaxation = 1.5f,
                                 .viscosity = 0.0f,
-                                .volume_feedback = 0.1f,
+                                .volume_feedback = VOLUME_FEEDBACK,
                                 .elasticity_ratio = 1.0f,
                                 .strain_policy = PBMPM_STRAIN_CLAMP,
                                 .strain_min = 0.1f,

@@ -15,6 +15,9 @@ typedef struct Materials {
     KernelMaterial kernel[PBMPM_MAX_MATERIALS];
 } Materials;
 
+/* Share by which J follows the volume that the grid holds, per 1/60 s, of materials that say nothing else. */
+static const float VOLUME_FEEDBACK = 0.1f;
+
 pbmpm_material_def material_defaults(void);
 
 /* Bit k: materials of kind k are in this build. */

@@ -54,7 +54,7 @@ static bool is_held(const World *world, Cells *cells, uint32_t i, int down)
         for (int way = -1; way <= 1; way += 2) {
             int32_t next[3] = {share->cell[0], share->cell[1], share->cell[2]};
             double along[3] = {0};
-            if (!survey_is_end(cells, share, a, way)) continue;
+            if (!survey_group_ends(cells, share, a, way)) continue;
             along[a] = way;
             if (survey_cells_to_obstacle(world, share, along, GAP) < INFINITY) return true;
             const bool below = a == down && (way > 0) == (world->settings.gravity[a] > 0.0f);

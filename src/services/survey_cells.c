@@ -131,8 +131,8 @@ uint32_t survey_body_of(Cells *cells, uint32_t i)
     return i;
 }
 
-/* Whether matter goes on from a cell to the next along an axis. Particles of one body lie a spacing apart; with two between them there is as much free space. */
-static bool goes_on(const Share *share, const Share *next, int axis)
+/* Whether one body reaches across the face between two cells. Its particles lie one spacing apart: where two spacings are between them, one of them is free. */
+static bool is_one_body(const Share *share, const Share *next, int axis)
 {
     const double apart = 1.0 + (double)next->low[axis] - (double)share->high[axis];
     return apart < 2.0 * fmax(share->spacing, next->spacing);
@@ -147,7 +147,7 @@ void survey_find_bodies(Cells *cells)
             Share next = cells->share[i];
             next.cell[a]++;
             const uint32_t other = survey_find_share(cells, survey_place_of(&next, 0, false));
-            if (other == cells->count || !goes_on(&cells->share[i], &cells->share[other], a)) continue;
+            if (other == cells->count || !is_one_body(&cells->share[i], &cells->share[other], a)) continue;
             const uint32_t one = survey_body_of(cells, i), two = survey_body_of(cells, other);
             cells->share[one > two ? one : two].body = one > two ? two : one;
         }
@@ -172,7 +172,7 @@ Below survey_below_of(Cells *cells, const int32_t cell[3], uint32_t body)
     return below;
 }
 
-bool survey_is_end(const Cells *cells, const Share *share, int axis, int way)
+bool survey_group_ends(const Cells *cells, const Share *share, int axis, int way)
 {
     int32_t next[3] = {share->cell[0], share->cell[1], share->cell[2]};
     next[axis] += way;

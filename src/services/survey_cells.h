@@ -74,7 +74,7 @@ bool survey_any_of_group(const Cells *cells, const int32_t cell[3], uint32_t gro
 /* A body's own before others'. Sorted by cell, bodies are found. */
 Below survey_below_of(Cells *cells, const int32_t cell[3], uint32_t body);
 
-/* Whether its own matter ends there, whatever lies beside it. Sorted by cell. */
-bool survey_is_end(const Cells *cells, const Share *share, int axis, int way);
+/* Whether the next cell has none of its group: of all bodies of a material. Sorted by cell. */
+bool survey_group_ends(const Cells *cells, const Share *share, int axis, int way);
 
 #endif

@@ -69,10 +69,10 @@ void survey_drops(const World *world, Cells *cells, int axis, uint32_t slot, Hea
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
     double drops[2 * LOOKED_AT], resting[2 * LOOKED_AT]; /* of all; and of what does not fall yet, where nothing below is infinitely far */
     uint32_t number = 0, count = 0, rests = 0, ends = 0;
-    for (uint32_t i = 0; i < cells->count; i++) ends += cells->share[i].group == slot + 1 && survey_is_end(cells, &cells->share[i], axis, way);
+    for (uint32_t i = 0; i < cells->count; i++) ends += cells->share[i].group == slot + 1 && survey_group_ends(cells, &cells->share[i], axis, way);
     const uint32_t stride = 1 + ends / (2 * LOOKED_AT); /* of ends, not of cells: under deep matter they are few, and a hole is measured by them */
     for (uint32_t i = 0; i < cells->count && count < 2 * LOOKED_AT; i++) {
-        if (cells->share[i].group != slot + 1 || !survey_is_end(cells, &cells->share[i], axis, way) || number++ % stride != 0) continue;
+        if (cells->share[i].group != slot + 1 || !survey_group_ends(cells, &cells->share[i], axis, way) || number++ % stride != 0) continue;
         const double drop = drop_of(world, cells, i, axis, &heap->on_matter);
         if (drop < 0.0) continue;
         drops[count++] = drop < INFINITY ? drop : 0.0;
@@ -123,8 +123,8 @@ static double gap_above(const World *world, Cells *cells, uint32_t top, int axis
     return INFINITY;
 }
 
-/* Whether its body ends there, though another one of the same material may begin. Sorted by cell, bodies are found. */
-static bool is_end_of_body(Cells *cells, uint32_t i, int axis, int way)
+/* Whether the next cell has none of its body; another of the same material may begin there. Sorted by cell, bodies are found. */
+static bool body_ends(Cells *cells, uint32_t i, int axis, int way)
 {
     int32_t next[3] = {cells->share[i].cell[0], cells->share[i].cell[1], cells->share[i].cell[2]};
     next[axis] += way;
@@ -138,11 +138,11 @@ bool survey_hangs(const World *world, Cells *cells, int axis, uint32_t slot)
     const int down = world->settings.gravity[axis] > 0.0f ? 1 : -1;
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
-        if (share->group == slot + 1 && is_end_of_body(cells, i, axis, down) && is_supported(world, cells, share, axis, down)) cells->share[survey_body_of(cells, i)].borne = true;
+        if (share->group == slot + 1 && body_ends(cells, i, axis, down) && is_supported(world, cells, share, axis, down)) cells->share[survey_body_of(cells, i)].borne = true;
     }
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
-        if (share->group != slot + 1 || cells->share[survey_body_of(cells, i)].borne || !is_end_of_body(cells, i, axis, -down)) continue;
+        if (share->group != slot + 1 || cells->share[survey_body_of(cells, i)].borne || !body_ends(cells, i, axis, -down)) continue;
         if (gap_above(world, cells, i, axis, -down) < STUCK) return true;
     }
     return false;
@@ -156,7 +156,7 @@ void survey_film(const World *world, const Cells *cells, int axis, uint32_t slot
     uint32_t number = 0;
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
-        if (share->group != slot + 1 || number++ % stride != 0 || !survey_is_end(cells, share, axis, up)) continue;
+        if (share->group != slot + 1 || number++ % stride != 0 || !survey_group_ends(cells, share, axis, up)) continue;
         int32_t cell[3] = {share->cell[0], share->cell[1], share->cell[2]};
         bool wet = survey_any_of_group(cells, cell, 0), free = true;
         cell[axis] += up;
@@ -233,7 +233,7 @@ void survey_slopes(const World *world, const Cells *cells, int axis, uint32_t sl
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
         if (share->group != slot + 1 || number++ % stride != 0 || is_falling(world, share)) continue;
-        if (!survey_is_end(cells, share, axis, up) || !is_borne(world, cells, share, axis)) continue;
+        if (!survey_group_ends(cells, share, axis, up) || !is_borne(world, cells, share, axis)) continue;
         const unsigned found = steep_sides(world, cells, share, axis, down, &heap->slide);
         looked += 1.0;
         steep += found != 0;

@@ -144,14 +144,11 @@ static bool point_of(const Nozzle *nozzle, const double u[3], double point[3])
     return within;
 }
 
-/* The sequence is a lattice in disguise, and shows as stripes where a stream is stretched. So each point is moved at random by up to a
- * quarter of the particles' distance, as those of a fill are. By trial. */
-static const double JITTER = 0.5;
-
 /* What is inside shall be so after positions are rounded to floats. */
 static const double EDGE = 1.0 - 0x1p-20;
 
-/* The next point of the region. A ball takes half of a cube's points, so that none of 64 is in it does not happen; then it is the last.
+/* The next point of the region. The sequence is a lattice in disguise, and shows as stripes where a stream is stretched: so each point
+ * is moved at random, as those of a fill are. A ball takes half of a cube's points, so that none of 64 is in it does not happen; then it is the last.
  * `spacing`: distance of particles [m]. */
 static void draw_point(Emitter *emitter, const Nozzle *nozzle, double spacing, double point[3])
 {
@@ -160,7 +157,7 @@ static void draw_point(Emitter *emitter, const Nozzle *nozzle, double spacing, d
         double u[3] = {0};
         const uint64_t number = emitter->state.drawn++;
         for (int a = 0; a < axes; a++) {
-            const double way = JITTER * spacing * random_of(&emitter->def, number, FOR_PLACE + a);
+            const double way = (double)LATTICE_JITTER * spacing * random_of(&emitter->def, number, FOR_PLACE + a);
             u[a] = sequence(&emitter->def, number, a, axes) + way / half_of(nozzle, a);
             if (fabs(u[a]) > 1.0) u[a] = copysign(2.0 - fabs(u[a]), u[a]); /* thrown back by the end of the region */
             u[a] *= EDGE;

@@ -317,7 +317,7 @@ static double quiet_feedback(const RefStep *step, const double d[3], double rati
     double way2 = 0.0;
     for (int a = 0; a < step->dimension; a++) way2 += d[a] * d[a];
     const double missing = fabs(fmin(seen, 1.0) - fmin(ratio, 1.0));
-    const double wrong = (missing - REF_QUIET_MIN) / (REF_QUIET_MAX - REF_QUIET_MIN);
+    const double wrong = (missing - REF_WRONG_MIN) / (REF_WRONG_MAX - REF_WRONG_MIN);
     const double share = fmin(fmax(fmax(way2 / (step->quiet_way * step->quiet_way), wrong), 0.0), 1.0);
     return share * (seen - ratio) + (1.0 - share) * fmin(1.0 - ratio, 0.0);
 }

@@ -124,7 +124,6 @@ static const double REF_SPIN_MAX = 0.8660254;
 
 /* From what error of J on feedback begins where matter rests, and is full. */
 static const double REF_WRONG_MIN = 0.05, REF_WRONG_MAX = 0.15;
-static const double REF_QUIET_MIN = 0.15, REF_QUIET_MAX = 0.3;
 
 /* What J is multiplied with so that those of a block come to claim what the grid has. What was crushed is left out. */
 double reference_control(const RefStep *step, const RefGrid *grid, const RefParticle *p, const double D[9]);

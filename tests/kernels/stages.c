@@ -227,7 +227,7 @@ static double unclear_feedback(const Scene *scene, const RefGrid *nodes, const R
  * by which J may exceed 1, more than what is wrong. */
 static double quiet_error(const Scene *scene, const RefParticle *before, double missing, BoundParticle error, double J_error)
 {
-    const double slope = fmin(fabs(missing), REF_QUIET_MAX + 0.15) / (REF_QUIET_MAX - REF_QUIET_MIN) * J_error;
+    const double slope = fmin(fabs(missing), REF_WRONG_MAX + 0.15) / (REF_WRONG_MAX - REF_WRONG_MIN) * J_error;
     const double way = fabs(missing) * (2.0 * sqrt(3.0) * error.d / scene->step.quiet_way + 8.0 * UNIT_ROUNDOFF);
     return (double)before->material.volume_feedback * (slope + way);
 }

@@ -139,11 +139,9 @@ static float smallest_relaxation(const World *world)
     return smallest;
 }
 
-/* Sand that is compressed beyond what its pressure explains gets this share back per 1/60 s, as the grid's volume feedback is by default. What comes back at
+/* Sand that is compressed beyond what its pressure explains gets VOLUME_FEEDBACK of that back per 1/60 s. What comes back at
  * once bounces: with 0.2 heaps below a funnel end at 15.6 to 16.8 degrees, not at 17.1 to 17.7. With 0.05 a block that falls two thirds of a metre onto cells of
- * 1.25 cm has 0.88 of its volume a second later, not 0.95 (tests/field/run.py funnel falls --settings 60x5). By trial. */
-static const double SETTLED_SHARE = 0.1;
-
+ * 1.25 cm has 0.88 of its volume a second later, not 0.95 (tests/field/run.py funnel falls --settings 60x5). */
 static void bind_cells(World *world)
 {
     KernelArgs *a = &world->args;
@@ -157,7 +155,7 @@ static void bind_cells(World *world)
     a->cells.solid_growth = guesses_solids(world) ? world->dual.cell_solid_growth.data : NULL;
     /* Found as a mean of cells, as traces are: see guess(). */
     a->cells.second_order = a->cells.trace = finds_second_order(world) ? world->dual.cell_second_order.data : NULL;
-    a->cells.settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->substep) : 1.0f;
+    a->cells.settle = solver_holds_sand(world) ? (float)per_reference_step((double)VOLUME_FEEDBACK, &world->substep) : 1.0f;
     a->cells.elastic_guesses = shares_world(world);
     a->cells.change2 = world->dual.cell_change2.data;
     a->cells.uphill = world->dual.cell_uphill.data;
@@ -467,8 +465,8 @@ static double weight_stiffness(const World *world, const Substep *substep)
  * eight seedings), asked for 2.5 by 0.6 % at most. */
 static double asked_per_iteration(const World *world, const Substep *substep)
 {
-    static const double MOST = 5.0, LEAST = 2.5, SHORT_FALL = 0.1; /* cells; by trial, on blocks that fall: see above */
-    return fmax(LEAST, MOST * SHORT_FALL / fmax(gravity_fall(world, substep), SHORT_FALL));
+    static const double LEAST = 2.5, LONG_FALL = 0.2; /* cells; by trial, on blocks that fall: see above */
+    return LEAST * fmax(1.0, LONG_FALL / fmax(gravity_fall(world, substep), 0.5 * LONG_FALL));
 }
 
 /* A single iteration lets no particle answer another. */

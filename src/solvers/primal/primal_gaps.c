@@ -15,7 +15,6 @@
 
 static const double RADIUS = 0.25; /* [cells] of a particle, with two per cell and axis as fill() puts them */
 static const double FAR = 2.5;     /* [cells]: particles with more room than nodes are ever given are not looked at */
-static const float SURFACE = 0.25f; /* [cells]: particles with that much more room than the one with the least are not at the surface any more; by trial */
 static const double CELL_REACH = 0.87; /* [cells]: half the diagonal of a cell, rounded up */
 
 enum { TILE = K_TILE_AXIS, BLOCK = K_BLOCK_AXIS };
@@ -188,7 +187,7 @@ static void spread_run(const GapJob *job, int32_t block, uint32_t run, float *ti
         for (int a = 0; a < grid->dimension; a++)
             for (int i = 0; i < 3; i++) w[a][i] = weight_at(particles->fraction[a][row], i);
         for (int i = 0; i < 9 * layers; i++) {
-            const float near = 2.0f - (room[row] - least[i]) * (1.0f / SURFACE), share = w[0][i % 3] * w[1][i / 3 % 3] * w[2][i / 9] * (near > 1.0f ? 1.0f : (near > 0.0f ? near : 0.0f));
+            const float near = 2.0f - (room[row] - least[i]) * (float)(1.0 / RADIUS), share = w[0][i % 3] * w[1][i / 3 % 3] * w[2][i / 9] * (near > 1.0f ? 1.0f : (near > 0.0f ? near : 0.0f));
             sums[i][0] += share;
             sums[i][1] += share * room[row];
         }

@@ -12,9 +12,11 @@ from ..errors import InputError
 from .options import (
     EXIT_CHECK_FAILED,
     JSON_HELP,
+    Number,
     NumberList,
     OutputFile,
     OutputFolder,
+    WholeNumber,
     chosen_timed_workers,
     emit_json,
     own_command,
@@ -53,10 +55,10 @@ class VariantList(click.ParamType):
 @click.option("--iterations", type=NumberList(int, 1000), help="Iterations per substep.")
 @click.option("--cells", type=NumberList(int, 1024), help="Cells over the length of the case; alone: search on these grids.")
 @click.option("--finest", is_flag=True, help="Search only on the finest of the grids on which a case compares solvers.")
-@click.option("--substeps", type=click.IntRange(1, 256), default=1, show_default=True, help="Substeps per step.")
+@click.option("--substeps", type=WholeNumber(1, 256), default=1, show_default=True, help="Substeps per step.")
 @click.option(
     "--seconds",
-    type=click.FloatRange(1.0),
+    type=Number(1.0),
     default=30.0,
     show_default=True,
     help="Processor time per case and grid for the search around the fronts. Not with --quick or with chosen settings.",
@@ -78,7 +80,7 @@ class VariantList(click.ParamType):
 @click.option(
     "--resume", is_flag=True, help="Keep the cases that the file of --json holds already; it is written after each case."
 )
-@click.option("--threads", type=click.IntRange(0, 256), default=1, show_default=True, help="Threads; 0: one per core.")
+@click.option("--threads", type=WholeNumber(0, 256), default=1, show_default=True, help="Threads; 0: one per core.")
 @worker_options("1; else runs are timed at the same time, each on a core of its own")
 @click.option("--chart", type=OutputFolder(), help="Folder for a PNG per case.")
 @click.option("--html", type=OutputFile(), metavar="FILE", help="Write charts, verdicts and tables as a page.")

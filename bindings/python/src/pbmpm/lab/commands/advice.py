@@ -7,13 +7,14 @@ from typing import Any
 
 import click
 
-from .options import JSON_HELP, OutputFile, emit_json, own_command, pace_options, run_settings, solver_options
+from .options import JSON_HELP, OutputFile, emit_json, own_command, pace_options, preset_option, run_settings, solver_options
 
 
 @click.command()
 @click.argument("scene_file", metavar="SCENE", type=click.Path(path_type=Path))
 @pace_options
 @solver_options
+@preset_option
 @click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)
 def advice(scene_file: Path, json_target: str | None, **options: Any) -> None:
     """What a SCENE will not hold with its settings, and what would help.

@@ -10,7 +10,7 @@ from typing import Any
 
 import click
 
-from .options import JSON_HELP, NameList, OutputFile, emit_json
+from .options import JSON_HELP, NameList, OutputFile, WholeNumber, emit_json
 from ..bench.subjects import MATERIALS, QUICK_MATERIALS, VARIANTS
 
 WARMUP_STEPS = 60
@@ -25,8 +25,8 @@ Measured = tuple[Report, str]
 @click.option("--solvers", type=NameList(VARIANTS), help="Solvers to measure.  [default: all]")
 @click.option("--materials", type=NameList(list(MATERIALS)), help=f"Kinds of matter.  [default: {','.join(QUICK_MATERIALS)}]")
 @click.option("--dims", type=NameList(["2", "3"]), help="Dimensions.  [default: both]")
-@click.option("--rounds", type=click.IntRange(1, 1000), default=5, show_default=True, help="Times that each solver has its turn.")
-@click.option("--warmup-steps", type=click.IntRange(0, 10000), help=f"Motion before the measurement.  [default: {WARMUP_STEPS}]")
+@click.option("--rounds", type=WholeNumber(1, 1000), default=5, show_default=True, help="Times that each solver has its turn.")
+@click.option("--warmup-steps", type=WholeNumber(0, 10000), help=f"Motion before the measurement.  [default: {WARMUP_STEPS}]")
 @click.option("--lake", is_flag=True, help="Measure instead what a jelly in a lake costs over both by themselves.")
 @click.option("--pool", is_flag=True, help="Measure instead a pool asleep against awake, and what one drop wakes in it.")
 @click.option("--phases", is_flag=True, help="Measure instead where the time of a step goes, at 60 Hz x 5.")

@@ -11,7 +11,7 @@ import click
 
 from ..errors import InputError
 from ..hints import not_one_of
-from .options import EXIT_CHECK_FAILED, JSON_HELP, OutputFile, emit_json, pace_options, run_settings, solver_options
+from .options import EXIT_CHECK_FAILED, JSON_HELP, Number, OutputFile, WholeNumber, emit_json, pace_options, run_settings, solver_options
 
 DEFAULT_SCENE = "workshop_2d.json"
 """A file of the package, the one of the samples."""
@@ -23,14 +23,14 @@ LONGEST_SETTLING = 2.0
 @click.argument("scene_file", metavar="[SCENE]", required=False, type=click.Path(path_type=Path))
 @click.option(
     "--at",
-    type=click.FloatRange(0, 1e6),
+    type=Number(0, 1e6),
     help="Simulated time at which the scene is measured [s].  [default: half of the scene's, at most 2]",
 )
-@click.option("--rounds", type=click.IntRange(3, 1001), default=15, show_default=True, help="Turns of each comparison.")
+@click.option("--rounds", type=WholeNumber(3, 1001), default=15, show_default=True, help="Turns of each comparison.")
 @click.option("--only", metavar="e1,e2,...", help="Effects to measure.  [default: all]")
 @pace_options
 @solver_options
-@click.option("--threads", type=click.IntRange(1, 256), default=1, show_default=True, help="Threads.")
+@click.option("--threads", type=WholeNumber(1, 256), default=1, show_default=True, help="Threads.")
 @click.option("--list", "only_list", is_flag=True, help="List the effects, with those of the scene marked, and end.")
 @click.option("--chart", type=OutputFile(), metavar="FILE", help="Write a bar chart (PNG).")
 @click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)

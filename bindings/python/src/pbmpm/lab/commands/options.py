@@ -75,6 +75,18 @@ def ready_file(path: Path) -> None:
     ready_folder(path.parent)
 
 
+class Number(click.FloatRange):
+    """A number between bounds."""
+
+    name = "number"
+
+
+class WholeNumber(click.IntRange):
+    """A whole number between bounds."""
+
+    name = "whole number"
+
+
 class TimeList(click.ParamType):
     """Times in seconds separated by commas."""
 
@@ -127,9 +139,9 @@ class NameList(click.ParamType):
 def pace_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options that say how often the equations are solved; None where the scene decides."""
     options = (
-        click.option("--rate", type=click.FloatRange(0.1, 1e6), help="Steps per simulated second.  [default: the scene's]"),
-        click.option("--iterations", type=click.IntRange(1, 1000), help="Iterations per substep.  [default: the scene's]"),
-        click.option("--substeps", type=click.IntRange(1, 256), help="Substeps per step.  [default: the scene's]"),
+        click.option("--rate", type=Number(0.1, 1e6), help="Steps per simulated second.  [default: the scene's]"),
+        click.option("--iterations", type=WholeNumber(1, 1000), help="Iterations per substep.  [default: the scene's]"),
+        click.option("--substeps", type=WholeNumber(1, 256), help="Substeps per step.  [default: the scene's]"),
     )
     return _with_options(command, options)
 
@@ -150,17 +162,23 @@ def solver_options(command: Callable[..., Any]) -> Callable[..., Any]:
             "--pressure", type=choice_of(PressureName), help="Dual solver: calm (particles) or lively (cells)."
         ),
         click.option("--integrator", type=choice_of(IntegratorName), help="Primal solver: order in time."),
-        click.option("--flip", type=click.FloatRange(0, 1), help="Share of the finest motion that liquids keep."),
+        click.option("--flip", type=Number(0, 1), help="Share of the finest motion that liquids keep."),
         click.option(
-            "--target-error", type=click.FloatRange(0, 1), help="Iterate to this predicted error [cells]; 0: off."
+            "--target-error", type=Number(0, 1), help="Iterate to this predicted error [cells]; 0: off."
         ),
         click.option(
             "--time-budget-ms",
-            type=click.FloatRange(0, 1e6),
+            type=Number(0, 1e6),
             help="Iterate for this wall time per step [ms]; 0: off. Not deterministic.",
         ),
     )
     return _with_options(command, options)
+
+
+def preset_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The option that names a file with settings."""
+    text = "Settings from a file that 'pbmpm tune' wrote; other options go before it."
+    return click.option("--preset", type=click.Path(path_type=Path), metavar="FILE", help=text)(command)
 
 
 class Address(click.ParamType):
@@ -182,7 +200,7 @@ def worker_options(default: str) -> Callable[[Callable[..., Any]], Callable[...,
             "--scheduler", type=Address(), help="Of a Dask cluster, whose workers carry out the runs: tcp://HOST:8786."
         )(command)
         return click.option(
-            "--processes", type=click.IntRange(1, 256), help=f"Runs at the same time on this machine.  [default: {default}]"
+            "--processes", type=WholeNumber(1, 256), help=f"Runs at the same time on this machine.  [default: {default}]"
         )(command)
 
     return decorate
@@ -259,9 +277,11 @@ _SETTINGS = {"rate": "rate_hz"} | {
 """Options and the fields of `RunSettings` that they set."""
 
 
-def run_settings(scene: Scene, options: dict[str, Any], changes: dict[str, Any] | None = None) -> RunSettings:
-    """What a scene asks for, but for changes and, before these, for what the options of a command say."""
+def run_settings(scene: Scene, options: dict[str, Any]) -> RunSettings:
+    """What a scene asks for, but for a preset's settings and, before these, for what the options of a command say."""
+    from ..scenes.preset import load_preset
     from ..simulation import RunSettings
 
+    preset = load_preset(options["preset"]).settings.changes() if options.get("preset") else {}
     given = {field: options[name] for name, field in _SETTINGS.items() if options.get(name) is not None}
-    return RunSettings.of(scene, options["threads"], **{**(changes or {}), **given})
+    return RunSettings.of(scene, options["threads"], **{**preset, **given})

@@ -10,23 +10,18 @@ import click
 
 from ..errors import InputError
 from ..meshes import MESH_FORMATS
-from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile, OutputFolder, TimeList, emit_json, pace_options, ready_folder, run_settings, solver_options
+from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, Number, OutputFile, OutputFolder, TimeList, WholeNumber, emit_json, pace_options, preset_option, ready_folder, run_settings, solver_options
 
 
 @click.command()
 @click.argument("scene_file", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
-    "--seconds", type=click.FloatRange(0, 1e6, min_open=True), help="Simulated time [s].  [default: the scene's]"
+    "--seconds", type=Number(0, 1e6, min_open=True), help="Simulated time [s].  [default: the scene's]"
 )
 @pace_options
 @solver_options
-@click.option(
-    "--preset",
-    "preset_file",
-    type=click.Path(path_type=Path),
-    help="Settings from a file that 'pbmpm tune' wrote; other options go before it.",
-)
-@click.option("--threads", type=click.IntRange(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
+@preset_option
+@click.option("--threads", type=WholeNumber(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
 @click.option(
     "--output", type=OutputFolder(), help="Folder for files.  [default: NAME-output]"
 )
@@ -36,14 +31,14 @@ from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile,
 @click.option(
     "--mesh-format", type=click.Choice(MESH_FORMATS), help="What --mesh writes, and implies it. PLY has velocities, too.  [default: ply]"
 )
-@click.option("--every", type=click.IntRange(1), help="Steps between PLY/VTK frames.  [default: 30 frames per second]")
+@click.option("--every", type=WholeNumber(1), help="Steps between PLY/VTK frames.  [default: 30 frames per second]")
 @click.option(
     "--pictures", type=TimeList(), help="Times of PNG pictures [s]; '' for none.  [default: the scene's, with --output]"
 )
 @click.option("--video", type=OutputFile(suffix=".gif"), metavar="FILE", help="Write an animated GIF, 480 pixels wide, at the pace of the scene.")
 @click.option(
     "--warmup-steps",
-    type=click.IntRange(0),
+    type=WholeNumber(0),
     default=0,
     show_default=True,
     help="First steps to leave out of the timing.",
@@ -61,7 +56,7 @@ def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options:
     from ..simulation import solved_with
 
     scene = load_scene(scene_file)
-    settings, seconds = _settings(scene, options)
+    settings, seconds = run_settings(scene, options), options["seconds"] or scene.seconds
     for note in [*scene.notes, *remarks(solved_with(scene, settings))]:
         click.echo(f"note: {note}", err=True)
     if warmup_steps >= seconds * settings.rate_hz:
@@ -81,13 +76,6 @@ def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options:
         sys.exit(EXIT_INTERRUPTED)
     if result.problems:
         sys.exit(EXIT_CHECK_FAILED)
-
-
-def _settings(scene, options: dict[str, Any]):
-    from ..scenes.preset import load_preset
-
-    changes = load_preset(options["preset_file"]).settings.changes() if options["preset_file"] else {}
-    return run_settings(scene, options, changes), options["seconds"] or scene.seconds
 
 
 def _output(scene, settings, seconds: float, options: dict[str, Any]):

@@ -10,7 +10,7 @@ from typing import Any, get_args
 import click
 
 from ..names import SolverName
-from .options import EXIT_CHECK_FAILED, JSON_HELP, NameList, NumberList, OutputFile, chosen_workers, emit_json, own_command, worker_options
+from .options import EXIT_CHECK_FAILED, JSON_HELP, NameList, NumberList, OutputFile, WholeNumber, chosen_workers, emit_json, own_command, worker_options
 from ..saved import file_to_resume
 
 _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # that is one of the others
@@ -25,7 +25,7 @@ _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # th
 @click.option("--materials", type=NameList(["liquid", "elastic", "sand", "visco", "mixed"]), help="Kinds of matter.  [default: all]")
 @click.option("--dims", type=NameList(["2", "3"]), help="Dimensions.  [default: both]")
 @click.option("--variant", help="One variant of a case.  [default: all]")
-@click.option("--seed", type=click.IntRange(0, 2**32 - 1), default=1, show_default=True, help="Of all random numbers.")
+@click.option("--seed", type=WholeNumber(0, 2**32 - 1), default=1, show_default=True, help="Of all random numbers.")
 @worker_options("one per core")
 @click.option("--all", "show_all", is_flag=True, help="Print the figures of cells that passed, too.")
 @click.option(

@@ -11,8 +11,10 @@ import click
 from .options import (
     EXIT_CHECK_FAILED,
     JSON_HELP,
+    Number,
     OutputFile,
     OutputFolder,
+    WholeNumber,
     chosen_timed_workers,
     emit_json,
     ready_folder,
@@ -26,19 +28,19 @@ _PERCENTILES = {"median": 50.0, "p99": 99.0}
 @click.argument("scene_file", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
     "--budget-ms",
-    type=click.FloatRange(0, 1e6, min_open=True),
+    type=Number(0, 1e6, min_open=True),
     required=True,
     help="Wall time that a frame may take [ms].",
 )
 @click.option(
     "--frame-rate",
-    type=click.FloatRange(0.1, 1e4),
+    type=Number(0.1, 1e4),
     default=60.0,
     show_default=True,
     help="Frames per simulated second.",
 )
 @click.option(
-    "--seconds", type=click.FloatRange(0, 1e6, min_open=True), help="Simulated time [s].  [default: the scene's]"
+    "--seconds", type=Number(0, 1e6, min_open=True), help="Simulated time [s].  [default: the scene's]"
 )
 @click.option(
     "--fit",
@@ -48,12 +50,12 @@ _PERCENTILES = {"median": 50.0, "p99": 99.0}
     help="Frame time that has to keep the budget: the median, or what 99 of 100 frames keep.",
 )
 @click.option(
-    "--reference-substeps", type=click.IntRange(2, 256), default=16, show_default=True, help="Of the reference."
+    "--reference-substeps", type=WholeNumber(2, 256), default=16, show_default=True, help="Of the reference."
 )
 @click.option(
-    "--reference-iterations", type=click.IntRange(1, 1000), default=100, show_default=True, help="Of the reference."
+    "--reference-iterations", type=WholeNumber(1, 1000), default=100, show_default=True, help="Of the reference."
 )
-@click.option("--threads", type=click.IntRange(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
+@click.option("--threads", type=WholeNumber(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
 @worker_options("1; else settings are timed at the same time, each on a core of its own")
 @click.option(
     "--output",
