@@ -113,9 +113,6 @@ static const float SLIP_MIN = 1e-4f;
 /* What sticks rubs like this: the most that a collider may be given. */
 static const float STICKS = 100.0f;
 
-/* A body's momentum changes by what its contacts give, so this bounds what an unfinished solution says of their impulses. By trial. */
-static const double SCALE_MAX = 20.0;
-
 bool constraints_stick(const Contact *contact) { return is_held(contact); }
 
 float constraints_friction_coefficient(const Contact *contact)
@@ -309,7 +306,7 @@ void constraints_scale(BodyFriction *body)
             body->group[r].scale += a[r][n];
         }
     }
-    for (int k = 0; k < n; k++) body->group[k].scale = fmin(fmax(body->group[k].scale, 0.0), SCALE_MAX);
+    for (int k = 0; k < n; k++) body->group[k].scale = fmax(body->group[k].scale, 0.0);
 }
 
 void constraints_set_limits(const ContactFrame *frame, int32_t block, const BodyFriction *body)

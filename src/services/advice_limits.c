@@ -26,13 +26,12 @@ static bool floats(const World *world, const pbmpm_material_def *body)
 }
 
 /* A column runs out by 1.2 times its height over its width, in widths (G. Lube, H. Huppert, S. Sparks, M. Freundt, "Collapses of two-dimensional granular columns", Phys.
- * Rev. E 72, 2005); where it falls both ways, half its width counts. Far: by its width (tests/field/run.py column tilted_tray --settings 60x5,240x5: 0.06 of the
+ * Rev. E 72, 2005); where it falls both ways, half its width counts. Beyond its width it is far (tests/field/run.py column tilted_tray --settings 60x5,240x5: 0.06 of the
  * volume is lost with 1.2 widths, 0.03 with 0.6). */
 static bool slides_far(const Heap *heap)
 {
     static const double RUN_OUT = 1.2; /* widths, by the law of Lube et al.: see above */
-    static const double FAR = 1.0;     /* widths; by trial, where volume was lost in trays: see above */
-    return RUN_OUT * fmin(heap->slide, heap->depth) > FAR * heap->width * (heap->falls_both_ways ? 0.5 : 1.0);
+    return RUN_OUT * fmin(heap->slide, heap->depth) > heap->width * (heap->falls_both_ways ? 0.5 : 1.0);
 }
 
 static void limits_of_sand(Adviser *adviser, uint32_t slot)

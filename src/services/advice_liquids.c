@@ -130,20 +130,19 @@ void advise_pool_moves(Adviser *adviser)
     }
 }
 
-/* At 60 Hz water that fell over a ball moves for more than 30 s, and faster later; at 120 Hz, 0.014, and at 240 Hz it calms down (tests/field/run.py splash). */
+/* At 60 Hz water that fell over a ball moves for more than 30 s, and faster later; at 120 Hz and at 240 Hz it calms down (tests/field/run.py splash). */
 void advise_ball_stirs(Adviser *adviser)
 {
-    static const double FALL = 0.03; /* [cells] g dt^2 / dx; by trial: between the 0.055 and the 0.014 of these rates */
     const World *world = adviser->world;
     const double fall = gravity_fall(world, &adviser->substep);
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && adviser->survey.ball_below && fall > FALL; slot++) {
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && adviser->survey.ball_below && fall > COARSE_FALL; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         const double moves = adviser->survey.heap[slot].moves, seen = unseen_wave(adviser, slot);
         if (seen == 0.0 || !adviser_flows(def) || def->kinematic_viscosity > 0.0f || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL) continue;
         if (moves < seen && !adviser->survey.ball_dry) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)fmax(moves, seen), .bound = (float)CALM_SPEED,
                                .text = "water that splashes over a ball goes on moving at this rate"};
-        adviser_by_substeps(adviser, sqrt(fall / FALL), &advice);
+        adviser_by_substeps(adviser, sqrt(fall / COARSE_FALL), &advice);
         adviser_give(adviser, advice);
     }
 }

@@ -127,10 +127,9 @@ static bool stands_over(const World *world, const Collider *body, uint32_t slot)
 /* Only bodies that pbmpm_rigid_advance() moves: what the host moves, or what turns about a pivot, stands wherever it is put. */
 void advise_rigid_on_sand(Adviser *adviser)
 {
-    static const double ROCKS = 0.02; /* by trial: rigid_on_sand: at 60 Hz 0.11, at 120 Hz 0.027; at 240 Hz, 0.007, the crate rests */
     const World *world = adviser->world;
     const double substeps = world->settings.substeps, fall = gravity_fall(world, &adviser->substep) * substeps * substeps; /* in a step: a rigid body moves once in it */
-    if (survey_axis_of_gravity(world) < 0 || fall <= ROCKS || world->settings.solver == PBMPM_SOLVER_PAPER) return;
+    if (survey_axis_of_gravity(world) < 0 || fall <= COARSE_FALL || world->settings.solver == PBMPM_SOLVER_PAPER) return;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
         for (uint32_t place = 0; place < world->colliders.used && world->materials.def[slot].kind == PBMPM_SAND && adviser_present(world, slot); place++) {
             const Collider *body = body_at(world, place);

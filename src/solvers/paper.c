@@ -143,9 +143,6 @@ double paper_viscous_share(const World *world, const pbmpm_material_def *def, co
     return fmin((double)def->viscosity + 8.0 * (double)def->kinematic_viscosity * substep->dt / (world->settings.iterations * dx * dx), 1.0);
 }
 
-/* Without gravity nothing brings spray back, so crushed matter grows slowly. By trial. */
-static const float WEIGHTLESS_REBOUND = 0.3f;
-
 void paper_set_materials(World *world)
 {
     const LiquidState liquid = measure_liquid(world);
@@ -168,7 +165,8 @@ void paper_set_materials(World *world)
         material->even_share = even_share(world, material);
         material->viscosity = (float)paper_viscous_share(world, def, &world->substep);
         const bool weightless = weight == 0.0;
-        material->growth_max = weightless ? WEIGHTLESS_REBOUND : FLT_MAX;
+        /* Without gravity nothing brings spray back, so crushed matter grows slowly. */
+        material->growth_max = weightless ? (float)(CRUSHED_GROWTH * fmin(1.0, world->substep.reference_steps)) : FLT_MAX;
         material->head2 = weightless ? FLT_MAX : (float)growth_head2(world, &liquid, material, weight);
         material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material, head, liquid.densest);
     }

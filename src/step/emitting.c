@@ -210,9 +210,6 @@ static Occupancy occupancy_bounds(const World *world, const Emitter *emitter, in
 
 /* ---- Births ---- */
 
-/* A particle's own nodes may hold so much more than fill_limit: in a stream that is just full they do in places. By trial. */
-static const double DENSEST = 1.25;
-
 /* Farther from an obstacle than this [cells] all nodes that count are open: OCCUPANCY_WIDE + 1/2 and their support, 3/2, along the axes. Across them it is 4 sqrt(d), 6.93
  * in 3D: what lies beyond has hardly any weight. */
 static const double FREE = 6.5;
@@ -229,7 +226,7 @@ typedef struct Birth {
 
 /* Whether there is space for it at the point [m]; then it is added. The mean over all nodes around a stream is less than its own filling, by what is empty beside it: alone it lets a stream of 6 by 2 cells be 1.6 (2D) to
  * 2 times (3D) as full as it should. Liquid spreads then. A solid keeps the room that it was born with as its own, so it is asked how full its own space is: that lets 1.2 times in, and all of a stream that is just full, which
- * measures 0.92 at most (6 cells wide, 0.5 to 6 m/s, 2D and 3D, without gravity). */
+ * measures 0.92 at most (6 cells wide, 0.5 to 6 m/s, 2D and 3D, without gravity). Its own nodes may hold more, by the noise of seeding. */
 static bool add_if_room(World *world, Emitter *emitter, Occupancy *occupancy, const Birth *birth, const double point[3], double clear, uint32_t generation)
 {
     const int d = world->def.dimension;
@@ -240,7 +237,7 @@ static bool add_if_room(World *world, Emitter *emitter, Occupancy *occupancy, co
     if (!occupancy_find(occupancy, d, place, &spot)) return false;
     const double limit = (double)emitter->def.fill_limit;
     if (occupancy->held + particle_volume(&emitter->def, d) > limit * occupancy->room) return false;
-    if (occupancy_density(occupancy, d, &spot) > DENSEST * limit || occupancy_filling(world, occupancy, place, clear < FREE) > limit) return false;
+    if (occupancy_density(occupancy, d, &spot) > (double)K_SEEDING_NOISE * limit || occupancy_filling(world, occupancy, place, clear < FREE) > limit) return false;
     if (material_is_solid(&world->materials, emitter->def.material.index) && occupancy_crowding(occupancy, d, place) > limit) return false;
     NewParticle particle = {.mass = particle_mass(world, &emitter->def), .material = emitter->def.material.index, .user_value = emitter->def.user_value};
     for (int a = 0; a < d; a++) {

@@ -15,8 +15,6 @@
  * cantilever of the accuracy cases were fewest around 2, by trial. */
 static const double OVERLAP = 2.0;
 
-static const double FAR_FROM_DONE = 0.1;    /* residual over what forces changed: BDF2 extrapolates no error that is more than a tenth of the motion; by trial */
-
 enum { BLOCK_GRAIN = 8, VECTORS = 4 + 2 * PRIMAL_MEMORY };
 
 /* ---- What passes keep of particles: couples of solids among liquid, see primal.h; then voids of visco, see close_voids() in ispc/plastic.isph ---- */
@@ -174,28 +172,12 @@ void primal_over_blocks(Primal *p, BlockPass *pass)
 
 /* ---- The substep ---- */
 
-/* What forces changed: the mean square of u - u*, times the mass. */
-static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    (void)block;
-    for (size_t i = begin; i < end; i++) {
-        const double change = (double)p->best[i] - (double)p->base[i];
-        if (i % W != 3) sum[0] += (double)p->base[i - i % W + 3] * change * change;
-    }
-}
-
-/* See multistep.h. A solution that is far from done must not be extrapolated either: its error would feed the next step. */
-static bool forgets(const Primal *p, int32_t block)
-{
-    const Search *search = primal_search_of(p, block);
-    const bool done = search->decrement <= FAR_FROM_DONE * FAR_FROM_DONE * search->total[0];
-    return !done || primal_body_of(p, block)->touches || primal_body_of(p, block)->unsound;
-}
+/* See multistep.h. */
+static bool forgets(const Primal *p, int32_t block) { return primal_body_of(p, block)->touches || primal_body_of(p, block)->unsound; }
 
 static void forget_past(Primal *p)
 {
     if (!p->world->args.primal.block_share) return;
-    primal_over_searches(p, sum_change);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
         if (forgets(p, block)) multistep_forget(p->world, block);
 }

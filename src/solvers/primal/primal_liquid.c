@@ -22,10 +22,6 @@
 #include "world/island_groups.h"
 #include "world/sleep_rows.h"
 
-/* By what share the weight of a pool compresses its bottom at most where it stands for an incompressible one; the level is too low by half of that. The stiffer it is,
- * the less of the iterations is left to solids in it: a jelly that hangs into water is 1 % off at 60 Hz x 5 with 0.02, 3 % too stiff with 0.01, 8 with 0.005. By trial. */
-static const double WEIGHT_SQUEEZES = 0.02;
-
 bool primal_is_mixed(const World *world)
 {
     const uint32_t both = KIND_SOLID | KIND_LIQUID;

@@ -36,6 +36,11 @@ typedef struct BodySum {
 /* Translations along and rotations about the axes, per radian. */
 enum { RIGID_MODES = 6 };
 
+/* What a start may not go through resists as so many times what yields to it: nodes' stiffnesses, or a body's mass. With 1 bodies at rest started with more energy than they
+ * had, and 30 mended half of that. Dozens stop a rigid body, and one beside a hinge does not throw it. By trial. */
+static const double HELD_HARD = 1000.0;
+
+
 /* A body's rigid motions: see primal_rigid.c. */
 typedef struct RigidBody {
     bool used;

@@ -239,7 +239,6 @@ Search *primal_yield_join(const Primal *p)
 /* A contact's part in the next Newton step of a start. */
 static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
 {
-    static const double HARD = 30.0; /* times what the body weighs at the contact that it yields to most: dozens stop it, and one beside a hinge does not throw it; by trial */
     const Contact *contact = yield_contacts(p) + grip->contact;
     const float *u = p->node + node_of(p, grip);
     double along[WAYS] = {0}, room = (double)contact->gap;
@@ -249,7 +248,7 @@ static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
         for (int k = 0; k < WAYS; k++) along[k] += (double)contact->normal[a] * grip->move[k][a];
     }
     if (!(room < product(along, body->at))) return;
-    const double hard = HARD / body->yields;
+    const double hard = HELD_HARD / body->yields /* over what it weighs at the contact that it yields to most */;
     for (int r = 0; r < WAYS; r++) {
         body->direction[r] += hard * room * along[r];
         for (int c = 0; c < WAYS; c++) body->factor[r][c] += hard * along[r] * along[c];
@@ -257,7 +256,7 @@ static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
 }
 
 /* What a body presses in before anything is solved for strains one layer of nodes alone, and pushes as nothing smooth does. So q begins with the least
- * |q - a|^2 / 2 + HARD/2 sum (what goes through)^2, by Newton's method. */
+ * |q - a|^2 / 2 + HELD_HARD/2 sum (what goes through)^2, by Newton's method. */
 void primal_yield_start(Primal *p)
 {
     enum { ROUNDS = 6 };
