@@ -18,6 +18,7 @@ static const double FALLS = 0.5, CREEPS = 0.003, SETTLES = 0.07;
 static const double SLOW = 0.3;                                  /* [s] longer than what settles or strikes lasts; by trial */
 static const double FORGETS = 1.0;                               /* [s] what grains bear beside the means of cells: as long as a bin takes to begin; by trial */
 static const double MISSING_MOST = 0.03;                         /* of the volume of sand that rests: as much as random places make the grid miss */
+static const double RETURNS = 0.1;                               /* of what is missing, per second: what gains less stays as it is, pressed by what the iterations leave; by trial */
 static const double FEW = 0.25;                                  /* of the grains of the fullest block: what has fewer is its rim, or spray; by trial */
 
 /* The grains of a block. */
@@ -161,14 +162,14 @@ static void note(GranularState *state, double missing, bool swells)
     state->waited = 0.0f;
 }
 
-/* Whether sand by itself that is slow gets volume back; noted every FORGETS. What gains nothing stays as it is, pressed by what the iterations leave. */
+/* Whether sand by itself that is slow gets volume back; noted every FORGETS. */
 static bool swells(GranularState *state, double missing, bool slow, double dt)
 {
     state->waited += (float)dt;
     if (!slow)
         note(state, missing, true);
     else if ((double)state->waited >= FORGETS)
-        note(state, missing, missing < (double)state->missing);
+        note(state, missing, (double)state->missing - missing > RETURNS * missing * (double)state->waited);
     return missing > MISSING_MOST && state->swells;
 }
 
