@@ -318,10 +318,9 @@ static double size_along(const FreeBody *body, const double impulse[6])
 /* The share of what solids gave in the last step that they are likely to give in this one: to what rests all of it, which is what gravity and the host give it; of an impact as much. */
 static double share_expected(const FreeBody *body, const double impulse[6], double dt)
 {
-    static const double MOST = 2.0; /* times that, by trial: enough for what comes to rest */
     double weight[6];
     for (int a = 0; a < 6; a++) weight[a] = dt * body->push[a];
-    const double given = size_along(body, impulse), most = MOST * size_along(body, weight);
+    const double given = size_along(body, impulse), most = size_along(body, weight);
     return given > most ? most / given : 1.0;
 }
 
