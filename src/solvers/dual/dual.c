@@ -43,11 +43,14 @@ static int guess_iterations(const World *world)
     return iterations < LEADING_STEPS ? iterations : LEADING_STEPS;
 }
 
-/* Pressure carried over without a guess is integral control: unstable where the solution is truncated. Half of it is worth twice as many iterations, and was stable at any
- * number of them but one. With a single one the pressure of slow motion is -k sum_j CARRIED^j e_(n+1-j), with e_(n+1) = e_n + v the strain that the predictor leads to. What is
+/* Pressure carried over without a guess is integral control: unstable where the solution is truncated. Half of it was stable at any number of
+ * iterations that was tried, and worth twice as many: by trial. */
+static const double CARRIED_SHARE = 0.5;
+
+/* With a single iteration the pressure of slow motion is -k sum_j CARRIED^j e_(n+1-j), with e_(n+1) = e_n + v the strain that the predictor leads to. What is
  * carried lags by CARRIED / (1 - CARRIED) substeps behind that, which is one ahead: the force answers to the strain (1 - 2 CARRIED) / (1 - CARRIED)
  * substeps from now and damps if that is positive. With a half nothing damps, and pools bounce for ever; this leads by a fifth of a substep. By trial. */
-static const double CARRIED_SHARE = 0.45;
+static const double CARRIED_SHARE_OF_ONE = 0.45;
 
 /* The guess finds the pressures of cells anew, as a correction: all is kept, but see fine_carried(). Not where liquids differ in density: there the guess is
  * truncated too, by what the heavy one may rise (pressure_guess.c). With all kept liquids of 1:10 to 1:10,000 gained 0.3 to 111 % of energy at 60 Hz x 2, with three
@@ -56,6 +59,7 @@ static const double CARRIED_SHARE = 0.45;
  * substep to substep: 180 times what one asks for, which threw it out at 82 m/s at 240 Hz x 2 when the walls opened. With a half it leaves at 6 to 11. */
 double dual_carried_share(const World *world)
 {
+    if (world->settings.iterations == 1 && guess_iterations(world) == 0) return CARRIED_SHARE_OF_ONE;
     const bool corrected = guess_iterations(world) > 0 && !in_cells(world) && guess_density(world) == 0.0;
     return corrected ? 1.0 : CARRIED_SHARE;
 }
