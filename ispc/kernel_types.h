@@ -47,8 +47,8 @@ typedef int32 int32_t;
 #define K_FIXED_COROTATED 0
 #define K_NEO_HOOKEAN 1
 
-#define K_LIQUID_RATIO_MIN 0.05f /* a liquid particle's J stays above this; by trial */
 #define K_SEEDING_NOISE 1.2f     /* what is put down at random is crowded or sparse by less than this factor */
+#define K_LIQUID_RATIO_MIN 0.05f /* a liquid particle's J stays above this; by trial */
 #define K_LIQUID_RATIO_MAX K_SEEDING_NOISE /* and below this: spray that comes back shall not pull the pool together */
 
 #define K_HEADS 3.0f /* crushed liquid moves as so many times its weight drives it, see growth_head2() in src/solvers/paper.c; by trial: with 4 it leaves H16 too fast */
@@ -93,7 +93,7 @@ struct KernelMaterial {
     int32_t yields;
     float friction;           /* sand: sine of the friction angle */
     float cohesion;           /* sand: ln J where tension yields */
-    float looseness;          /* sand: growth of ln J beyond that which closes up again before pressure is borne: none, or any */
+    float looseness;          /* sand: growth of ln J beyond that which is kept, and closes up before pressure is borne */
     float bulk_over_shear;    /* (2 mu + d lambda) / (2 mu) of the solver's law */
     float yield_strain;       /* visco: norm of the deviator of the logarithmic strain that is borne */
     float excess_kept;        /* visco: share of what is beyond that is left after a substep */

@@ -79,7 +79,8 @@ typedef struct pbmpm_material_def {
     float friction_angle;       /**< sand: phi [rad], in [0, 1.4]; default pi/6; tan(phi) is the friction coefficient. Mohr and Coulomb's law in 2D and
                                      3D: a shear stress is at most sin(phi) times the mean of the largest and the smallest pressure. */
     float cohesion;             /**< sand: ln of the volume ratio J up to which it bears tension, in [0, 0.5]; default 0: dry */
-    uint32_t volume_correction; /**< sand: 1 (default): sand that came apart closes up again before it bears pressure; 0: it does not, and a heap grows with each fall */
+    uint32_t volume_correction; /**< sand: 1 (default): sand that came apart closes up again before it bears pressure, from up to three times its volume (dual solver: 1.15
+                                     times); 0: it does not, and a heap grows with each fall */
     float yield_strain;         /**< visco: largest norm of the deviator of the logarithmic strain (ln of the stretches) that it bears, in
                                      [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain. */
     float flow_rate;            /**< visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a

@@ -21,7 +21,7 @@
  * does not rub on it, whatever its friction.
  *
  * With the primal and the convergent solver a body yields to solids, too, within the step. Beside liquid or sand it does not. See docs/method.md, The primal solver.
- * Velocities of the state then have what solids are expected to give. That is what they gave in the last step, but at most twice the body's weight. Places follow from them.
+ * Velocities of the state then have what solids are expected to give. That is what they gave in the last step, but at most what gravity and the host give. Places follow from them.
  * The step corrects both, and the next pbmpm_rigid_advance() reads it. Until then a body that is hit is where its obstacle is, not quite where its state says.
  *
  * All other matter feels the body's velocity one step later than the body feels matter. A body that is lighter than the matter that moves along would

@@ -8,8 +8,8 @@
 #include "pbmpm/material.h"
 #include "pbmpm/particles.h"
 
-/* Random offset of particles that a fill or an emitter puts on a lattice, as a share of its spacing, where nothing else is said. */
-static const float LATTICE_JITTER = 0.5f;
+/* How far particles of fills and emitters are moved at random, as a share of their spacing: half of it to each side. Fills may say otherwise. */
+static const float PLACE_JITTER = 0.5f;
 
 /* Sizes of fields, as multiples of one array. */
 enum { CLASS_SCALAR, CLASS_VECTOR, CLASS_MATRIX, CLASS_ID, CLASS_COUNT, MAX_FIELDS = 24, MAX_COMPONENTS = 9 };

@@ -45,7 +45,7 @@ pbmpm_material_id adviser_id_of(const World *world, uint32_t slot);
 /* Whether an obstacle stands below a point. */
 bool adviser_lands(const World *world, uint32_t material, const double from[3]);
 
-/* What steps hardly resolve: g dt^2 / dx [cells]. By trial: a crate rocks on sand at 0.027 and rests at 0.007; water that fell over a ball goes on moving at 0.055 and calms
+/* What is hardly resolved: g dt^2 / dx [cells], per substep for liquid, per step for rigid bodies, which move once in it. By trial: a crate rocks on sand at 0.027 and rests at 0.007; water that fell over a ball goes on moving at 0.055 and calms
  * down at 0.014 (tests/field/run.py rigid_on_sand splash --settings 60x5,120x5,240x5). */
 static const double COARSE_FALL = 0.02;
 

@@ -22,7 +22,7 @@ pbmpm_fill_def fill_def_defaults(void)
     return (pbmpm_fill_def){.size = sizeof(pbmpm_fill_def),
                             .seed = 1,
                             .particles_per_axis = 2.0f,
-                            .jitter = LATTICE_JITTER};
+                            .jitter = PLACE_JITTER};
 }
 
 static bool position_is_valid(const World *world, const float *position)

@@ -315,7 +315,8 @@ static double size_along(const FreeBody *body, const double impulse[6])
     return sqrt(size2);
 }
 
-/* The share of what solids gave in the last step that they are likely to give in this one: to what rests all of it, which is what gravity and the host give it; of an impact as much. */
+/* The share of what solids gave in the last step that they are likely to give again. What rests is given what gravity and the host give it: all of it counts. Of an impact
+ * as much counts, and no more. */
 static double share_expected(const FreeBody *body, const double impulse[6], double dt)
 {
     double weight[6];

@@ -157,7 +157,7 @@ static void draw_point(Emitter *emitter, const Nozzle *nozzle, double spacing, d
         double u[3] = {0};
         const uint64_t number = emitter->state.drawn++;
         for (int a = 0; a < axes; a++) {
-            const double way = (double)LATTICE_JITTER * spacing * random_of(&emitter->def, number, FOR_PLACE + a);
+            const double way = (double)PLACE_JITTER * spacing * random_of(&emitter->def, number, FOR_PLACE + a);
             u[a] = sequence(&emitter->def, number, a, axes) + way / half_of(nozzle, a);
             if (fabs(u[a]) > 1.0) u[a] = copysign(2.0 - fabs(u[a]), u[a]); /* thrown back by the end of the region */
             u[a] *= EDGE;

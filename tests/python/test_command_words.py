@@ -13,6 +13,7 @@ from click.testing import CliRunner
 import pbmpm
 from pbmpm.lab.commands.cli import cli
 from pbmpm.lab.errors import InputError
+from pbmpm.lab.scenes.preset import Preset, PresetSettings, save_preset
 from pbmpm.lab.stability.cases import find_case
 
 
@@ -150,6 +151,14 @@ def test_advice_tells_without_a_step_what_a_run_tells_before_it(scene: Callable[
     assert asked and [f"advice: {line}" for line in asked] == ran.stderr.splitlines()[: len(asked)]
     report = json.loads(CliRunner().invoke(cli, ["advice", path, "--rate", "60", "--json", "-"]).stdout)
     assert [row["text"] in line for row, line in zip(report["advice"], asked, strict=True)] == [True] * len(asked)
+
+
+def test_advice_takes_a_preset(scene: Callable[..., Path], tmp_path: Path) -> None:
+    path, preset = str(scene(lambda data: None)), tmp_path / "p.json"
+    save_preset(Preset(name="p", scene="s", settings=PresetSettings(rate_hz=60.0), ms_median=1.0), preset)
+    asked, with_it = (CliRunner().invoke(cli, ["advice", path, *options]).output for options in (("--rate", "60"), ("--preset", str(preset))))
+    assert with_it == asked
+    assert CliRunner().invoke(cli, ["advice", path, "--preset", str(preset), "--solver", "convergent", "--rate", "240"]).output.startswith("nothing is foreseen")
 
 
 def test_advice_says_where_nothing_is_foreseen(scene: Callable[..., Path]) -> None:

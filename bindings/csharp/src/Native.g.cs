@@ -659,7 +659,8 @@ namespace Pbmpm
         public float FrictionAngle;
         /// <summary>sand: ln of the volume ratio J up to which it bears tension, in [0, 0.5]; default 0: dry</summary>
         public float Cohesion;
-        /// <summary>sand: 1 (default): sand that came apart closes up again before it bears pressure; 0: it does not, and a heap grows with each fall</summary>
+        /// <summary>sand: 1 (default): sand that came apart closes up again before it bears pressure, from up to three times its volume (dual solver: 1.15
+        /// times); 0: it does not, and a heap grows with each fall</summary>
         public uint VolumeCorrection;
         /// <summary>visco: largest norm of the deviator of the logarithmic strain (ln of the stretches) that it bears, in
         /// [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain.</summary>

@@ -13,7 +13,7 @@
 #include "contact/contact_constraints.h"
 #include "solvers/primal/primal_solve.h"
 
-static const double RADIUS = 0.25; /* [cells] of a particle, with two per cell and axis as fill() puts them */
+static const double RADIUS = 0.25; /* [cells] of a particle, with two per cell and axis as fill() puts them; who has that much more room than the nearest is not at the surface */
 static const double FAR = 2.5;     /* [cells]: particles with more room than nodes are ever given are not looked at */
 static const double CELL_REACH = 0.87; /* [cells]: half the diagonal of a cell, rounded up */
 

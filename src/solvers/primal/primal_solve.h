@@ -36,10 +36,9 @@ typedef struct BodySum {
 /* Translations along and rotations about the axes, per radian. */
 enum { RIGID_MODES = 6 };
 
-/* What a start may not go through resists as so many times what yields to it: nodes' stiffnesses, or a body's mass. With 1 bodies at rest started with more energy than they
- * had, and 30 mended half of that. Dozens stop a rigid body, and one beside a hinge does not throw it. By trial. */
+/* How hard a start is held back, over what yields to it: a node's stiffness, or a body's mass. With 1 bodies at rest started with more energy than they had; 30 mended half of
+ * that. Dozens stop a rigid body. One beside a hinge is not thrown. By trial. */
 static const double HELD_HARD = 1000.0;
-
 
 /* A body's rigid motions: see primal_rigid.c. */
 typedef struct RigidBody {

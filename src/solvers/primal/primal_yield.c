@@ -248,7 +248,7 @@ static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
         for (int k = 0; k < WAYS; k++) along[k] += (double)contact->normal[a] * grip->move[k][a];
     }
     if (!(room < product(along, body->at))) return;
-    const double hard = HELD_HARD / body->yields /* over what it weighs at the contact that it yields to most */;
+    const double hard = HELD_HARD / body->yields; /* times what it weighs at the contact that it yields to most */
     for (int r = 0; r < WAYS; r++) {
         body->direction[r] += hard * room * along[r];
         for (int c = 0; c < WAYS; c++) body->factor[r][c] += hard * along[r] * along[c];
@@ -256,7 +256,7 @@ static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
 }
 
 /* What a body presses in before anything is solved for strains one layer of nodes alone, and pushes as nothing smooth does. So q begins with the least
- * |q - a|^2 / 2 + HELD_HARD/2 sum (what goes through)^2, by Newton's method. */
+ * |q - a|^2 / 2 + h/2 sum (what goes through)^2, by Newton's method. */
 void primal_yield_start(Primal *p)
 {
     enum { ROUNDS = 6 };

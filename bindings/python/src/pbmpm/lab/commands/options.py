@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shlex
@@ -79,6 +80,12 @@ class Number(click.FloatRange):
     """A number between bounds."""
 
     name = "number"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        number = super().convert(value, param, ctx)
+        if math.isnan(number):
+            self.fail(f"'{value}' is not a valid number.", param, ctx)
+        return number
 
 
 class WholeNumber(click.IntRange):

@@ -1,6 +1,6 @@
 """Presets: settings of the solver for a scene, with what they cost and how good they are, as JSON.
 
-``pbmpm tune`` writes them and ``pbmpm run --preset`` reads them. The names under ``settings`` are those of the fields of
+``pbmpm tune`` writes them; ``pbmpm run --preset`` and ``pbmpm advice --preset`` read them. The names under ``settings`` are those of the fields of
 ``pbmpm_settings``, and ``rate_hz``; a field that is absent stays as the scene says.
 """
 
