@@ -18,10 +18,6 @@ enum { LEADING_STEPS = 3 };
 /* Largest growth that crushed liquid is asked for in 1/60 s; why, and the rest of the law: see growth_max() in dual/dual.c. By trial. */
 static const double CRUSHED_GROWTH = 0.3;
 
-/* The share by which weight compresses the bottom of matter at most, where stiffness is chosen for that. The level is too low by half of it. The stiffer a pool is, the less
- * of the iterations is left to solids in it: a jelly that hangs into water is 1 % off at 60 Hz x 5 with 0.02, 3 % too stiff with 0.01, 8 with 0.005. By trial. */
-static const double WEIGHT_SQUEEZES = 0.02;
-
 #define ENERGY_ROUNDING 5e-7 /* of sums of energies in single precision */
 
 /* A kg cell^2 / substep^2 in Joule. */

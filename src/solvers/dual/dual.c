@@ -447,12 +447,14 @@ double dual_stiffness_share(const World *world, const pbmpm_material_def *def, c
 }
 
 /* Solids that are too soft for their own weight end crushed in a row of cells. Where gravity pulls, those by themselves are therefore
- * asked for what is compressed by WEIGHT_SQUEEZES at most below matter of this depth, as far as the iterations bear that: c times the
- * pressure there is 4 g dt^2/dx per cell of depth. */
+ * asked for what is compressed by WEIGHT_STRAIN at most below matter of this depth, as far as the iterations bear that: c times the
+ * pressure there is 4 g dt^2/dx per cell of depth. By trial: with 0.02 one whose iterations rise from 2 to 50 at 60 Hz gains 3 % of its energy (H11). */
+static const double WEIGHT_STRAIN = 0.05;
+
 static double weight_stiffness(const World *world, const Substep *substep)
 {
     const double fall = gravity_fall(world, substep);
-    return fall > 0.0 ? 4.0 * fall * matter_depth(world) / WEIGHT_SQUEEZES : 0.0;
+    return fall > 0.0 ? 4.0 * fall * matter_depth(world) / WEIGHT_STRAIN : 0.0;
 }
 
 /* More would be more than they stop: stiff bodies that fall would come to tremble. And half of it where a body falls by 0.2 cells per substep or more: what
