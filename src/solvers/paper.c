@@ -165,8 +165,8 @@ void paper_set_materials(World *world)
         material->even_share = even_share(world, material);
         material->viscosity = (float)paper_viscous_share(world, def, &world->substep);
         const bool weightless = weight == 0.0;
-        /* Without gravity nothing brings spray back, so crushed matter grows slowly. */
-        material->growth_max = weightless ? (float)(CRUSHED_GROWTH * fmin(1.0, world->substep.reference_steps)) : FLT_MAX;
+        /* Without gravity nothing brings spray back, so crushed matter grows slowly; by a share per 1/60 s it would stop at 0.81 of its volume at 240 Hz x 20 (H04). */
+        material->growth_max = weightless ? (float)CRUSHED_GROWTH : FLT_MAX;
         material->head2 = weightless ? FLT_MAX : (float)growth_head2(world, &liquid, material, weight);
         material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material, head, liquid.densest);
     }
