@@ -98,6 +98,7 @@ typedef struct Turn {
 static Turn turn_of(const Builder *b, const Bound *bound)
 {
     static const double LEAST_SLOPE = 0.5; /* by trial: a quarter of that of a plane; less is between two walls, which have no normal in common */
+    static const double SMOOTH = 0.89; /* by trial: cosine of the turn per cell: of a ball with a radius of two cells; with 0.9 its lift is 9 % too large */
     const Grid *grid = b->frame->grid;
     const Face *face = &bound->face[0];
     Turn turn = {.bend = 0.0, .rounded = 0.0};
@@ -114,7 +115,7 @@ static Turn turn_of(const Builder *b, const Bound *bound)
             if (beside && wall_goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
             const bool across = bound->thin && distance < 0.0; /* its gap is that of the wall's other side */
             if (!beside && !across && other != GRID_NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
-            smooth = smooth && beside && dot3(face->normal, beside->face[0].normal) > SAME_DIRECTION; /* of a ball with a radius of two cells, or more */
+            smooth = smooth && beside && dot3(face->normal, beside->face[0].normal) > SMOOTH;
             slope[a] += side * distance;
             curve += distance - face->distance;
         }
