@@ -442,13 +442,21 @@ double constraints_work(const ContactFrame *frame, const float *gradient, const 
         const Contact *contact = &list.contact[i];
         const size_t node = list.node + contact->node * K_NODE_WIDTH;
         float given[3];
-        if (contact->stays) { /* its surface is its own motion: what walls do to all of them is the sum, with its sign */
-            work += is_held(contact) ? (double)along(gradient + node, contact->surface) : 0.0;
-            continue;
-        }
-        if (!contact->active) continue;
+        if (contact->stays || !contact->active) continue;
         given_by(contact, gradient + node, u + node, least, given);
         work += fmax(0.0, (double)along(given, contact->surface));
+    }
+    return work;
+}
+
+double constraints_staying_work(const ContactFrame *frame, const float *gradient, int32_t block)
+{
+    double work = 0.0;
+    if (frame->colliders->contacts == 0) return work;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        const Contact *contact = &list.contact[i];
+        if (contact->stays && is_held(contact)) work += (double)along(gradient + list.node + contact->node * K_NODE_WIDTH, contact->surface);
     }
     return work;
 }

@@ -101,8 +101,12 @@ void constraints_scale_impulses(const ContactFrame *frame, int32_t block, double
 double constraints_friction_loss(const ContactFrame *frame, const float *u, float least, int32_t block);
 
 /* In the joint solver, and where matter pushes rigid bodies: the work that moving surfaces do on the nodes of a block, if it is done on them. It is the sum of
- * (gradient - friction) . surface over active contacts. Nodes that stay (joint.h) are their own surfaces: what walls that stand still do to them adds up to nothing, so they count with their sign. */
+ * (gradient - friction) . surface over active contacts. */
 double constraints_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block);
+
+/* The work that nodes that stay (joint.h) do on the others: gradient . surface. They are their own surfaces: what walls that stand still do to them adds up to nothing, so
+ * it counts with its sign. */
+double constraints_staying_work(const ContactFrame *frame, const float *gradient, int32_t block);
 
 /* What active contacts of moving surfaces do, with its sign: what recedes takes energy. */
 typedef struct ContactExchange {

@@ -132,6 +132,12 @@ static void start_solids(World *world, int32_t block, size_t begin, size_t end)
             node[i + c] = node[i + 3] > 0.0f ? world->args.grid.node_before[i + c] - held * world->args.gravity[c] : 0.0f;
 }
 
+/* A body whose sketch gained energy goes where the dual leads. */
+static void leave_sketch(World *world, int32_t block, size_t begin, size_t end)
+{
+    if (primal_sketch_gained(world, block)) memcpy((float *)world->grid.node.data + begin, (const float *)world->joint.node.data + begin, (end - begin) * sizeof(float));
+}
+
 static void move_predictor(World *world, int32_t block, size_t begin, size_t end)
 {
     const float *node = world->grid.node.data, *before = world->joint.node.data;
@@ -158,6 +164,7 @@ static void push_staying(const World *world, Contact *contact, size_t at)
     const float share = released_share(world);
     float *base = (float *)world->grid.node_base.data + at;
     (void)contact;
+    if (primal_sketch_gained(world, (int32_t)(at / W / (size_t)world->grid.block_cells))) return;
     for (size_t c = 0; c < 3 && base[3] > 0.0f; c++) base[c] += share * ((u[c] - base[c]) - (gradient[c] + world->args.dual.node_push[at + c]) / base[3]);
 }
 
@@ -181,7 +188,7 @@ static void sketch(World *world, const ContactFrame *contacts)
 {
     over_blocks(world, start_solids);
     begin_primal(world);
-    primal_sketch(world, contacts);
+    if (primal_sketch(world, contacts) > 0) over_blocks(world, leave_sketch);
     solver_over_particles(world, world->kernels->end_sketch);
     over_blocks(world, move_predictor);
     for_staying(world, push_staying);

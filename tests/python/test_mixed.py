@@ -45,6 +45,27 @@ def test_the_workshop_at_a_games_rate(root: Path) -> None:
     assert np.percentile(stretch[solid], 1) > 0.4
 
 
+@pytest.mark.parametrize(("iterations", "modulus", "yields_at"), [(14, 4.0e6, 0.001), (18, 2.0e6, 0.003), (20, 4.0e6, 0.0023), (22, 1.0e6, 0.001)])
+def test_clay_that_heavy_liquid_runs_into_stays_whole(iterations: int, modulus: float, yields_at: float) -> None:
+    """A column of liquid beside stiff clay collapses in a closed box, at 30 Hz. Where they meet the sketch of the joint solver is far from done.
+
+    When it pushed the liquid all the same the clay burst: 26, 43, 40 and 33 % of the energy that the scene can turn over came out of nothing. A closed scene may
+    gain 2 %, as in tests/random_scenes.py, whose seed 396074 this is.
+    """
+    cell, gravity = 0.016338593, 3.2056
+    size = 18 * cell
+    with pbmpm.World(2, cell, gravity=[0.0, -gravity], iterations=iterations, threads=1, domain=([0.0, 0.0], [size, size]), domain_friction=0.5) as world:
+        clay = pbmpm.Visco(density=2310.325, young_modulus=modulus, poisson_ratio=0.3, yield_strain=yields_at)
+        world.fill(pbmpm.Box([0.0534536, 0.1018584], [0.0336192, 0.0587516]), world.add_material(clay), velocity=[0.1246024, 0.0])
+        world.fill(pbmpm.Box([0.2251707, 0.1266521], [0.0677441, 0.0538]), world.add_material(pbmpm.Liquid(density=5866.8129)))
+        first = world.stats
+        turned = first.kinetic_energy + first.mass * gravity * size
+        for _ in range(30):
+            world.step(1.0 / 30.0)
+            gain = world.stats.kinetic_energy + world.stats.potential_energy - first.kinetic_energy - first.potential_energy
+            assert gain < 0.02 * turned
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_a_floor_lets_go_what_a_hand_lifts(dimension: int) -> None:
     """A jelly beside sand and a drop of water, so the dual holds all three. A hand takes it and rises with the cosine of a second, by 0.78 m/s at most.

@@ -285,12 +285,18 @@ static void minimise(Primal *p)
     solver_may_go_on(p->world, PRIMAL_ERROR_PER_RESIDUAL * record->residual);
 }
 
-void primal_sketch(World *world, const ContactFrame *contacts)
+uint32_t primal_sketch(World *world, const ContactFrame *contacts)
 {
     Primal p = begin_solve(world, contacts, true);
     const uint32_t most = ((uint32_t)world->settings.iterations + 1) / 2;
     primal_search(&p, most, NULL, true);
     primal_over_blocks(&p, write_motion);
+    return primal_check_bodies(&p);
+}
+
+bool primal_sketch_gained(const World *world, int32_t block)
+{
+    return ((const BodySum *)world->primal.body_sums.data)[body_of_block(&world->grid, block)].failed;
 }
 
 /* Whether a body was moved after it had got its momentum. */

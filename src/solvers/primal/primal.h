@@ -54,8 +54,12 @@ void primal_free(World *world);
 /* The gradient of the energy where primal_sketch() or primal_solve() ended, per node. */
 const float *primal_gradient(const World *world);
 
-/* Half of the iterations, without checks and impulses: what the joint solver begins with. */
-void primal_sketch(World *world, const ContactFrame *contacts);
+/* Half of the iterations, without impulses: what the joint solver begins with. Returns how many bodies gained energy: what they have is far from a solution. Nodes that
+ * stay give none of it: what springs take from them they lose to the push that follows. */
+uint32_t primal_sketch(World *world, const ContactFrame *contacts);
+
+/* Whether the body in a block did in the last sketch. */
+bool primal_sketch_gained(const World *world, int32_t block);
 
 void primal_solve(World *world, const ContactFrame *contacts);
 

@@ -47,8 +47,10 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[9 + c] += mass * u;
         }
     }
-    if (!p->as_sent) sum[2] = constraints_work(p->contacts, p->gradient, p->best, p->slip_min, block);
-    else {
+    if (!p->as_sent) {
+        sum[2] = constraints_work(p->contacts, p->gradient, p->best, p->slip_min, block);
+        if (!p->sketches) sum[2] += constraints_staying_work(p->contacts, p->gradient, block);
+    } else {
         ContactExchange exchange = {0};
         constraints_exchange(p->contacts, p->gradient, p->best, p->slip_min, block, &exchange);
         memcpy(sum + CHECK_SUMS, &exchange, sizeof exchange);
