@@ -15,7 +15,7 @@ static inline bool joint_is_chosen(const World *world) { return world->record.so
  * 74 to 108). It costs a tenth of a step, and heaps of sand flatten by two degrees more. */
 enum { LEADING_STEPS = 3 };
 
-/* Largest growth that crushed liquid is asked for per substep: by the paper's solver without gravity, and by the dual, see growth_max() in dual/dual.c. By trial. */
+/* Largest growth that crushed liquid is asked for: by the paper's solver without gravity, per substep; by the dual, see growth_max() in dual/dual.c. By trial. */
 static const double CRUSHED_GROWTH = 0.3;
 
 #define ENERGY_ROUNDING 5e-7 /* of sums of energies in single precision */

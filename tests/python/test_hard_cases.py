@@ -428,10 +428,10 @@ def test_every_known_failure_covers_a_setting_of_the_map() -> None:
 
 
 def test_known_failure_covers_what_it_names() -> None:
-    known = KnownFailure("why", solvers=("paper",), variants=("clamp",), materials=("elastic",))
+    known = KnownFailure("why", solvers=("paper",), variants=("clamp",), materials=("elastic",), places=((60.0, 1),))
     setting = Setting("elastic", 2, "clamp", 60.0, 1)
     assert known.covers(setting)
-    others = ({"solver": "dual"}, {"variant": "delete"}, {"material": "sand"})
+    others = ({"solver": "dual"}, {"variant": "delete"}, {"material": "sand"}, {"rate_hz": 120.0}, {"iterations": 2})
     assert not any(known.covers(replace(setting, **other)) for other in others)
 
 

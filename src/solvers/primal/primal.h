@@ -22,8 +22,7 @@
  *
  * Of bodies with liquid this judges the elastic energy alone: see primal_liquid.c for the rest. In the joint solver it judges all, and Psi has the energy that the liquid
  * has there, see joint.h, which falls by the work of its pressures: a block that water lifts gains no more than that. Where the elastic energy alone was judged, splashes
- * doubled theirs in each substep, and blocks at rest failed. The search goes on for longer, for liquid that starts again loses its motion; what it leaves eddies pay, if
- * they have as much.
+ * doubled theirs in each substep, and blocks at rest failed. What the search leaves eddies pay, if they have as much: liquid that starts again loses its motion.
  *
  * T is symmetric for small D only. Solids that liquid presses by p and that turn by w have the skew part p w, a couple in the sense of the turn. The liquid, with -p I,
  * has none against it: a jelly of eight cells below 18 of water spun up by 6 % in each substep of 1/60 s. But inner forces turn nothing. So solids among liquid have the

@@ -256,7 +256,7 @@ static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
 }
 
 /* What a body presses in before anything is solved for strains one layer of nodes alone, and pushes as nothing smooth does. So q begins with the least
- * |q - a|^2 / 2 + h/2 sum (what goes through)^2, by Newton's method. */
+ * |q - a|^2 / 2 + hard/2 sum (what goes through)^2, by Newton's method. */
 void primal_yield_start(Primal *p)
 {
     enum { ROUNDS = 6 };

@@ -214,6 +214,7 @@ class KnownFailure:
     solvers: tuple[str, ...]
     variants: tuple[str, ...] | None = None
     materials: tuple[str, ...] | None = None
+    places: tuple[tuple[float, int], ...] | None = None  #: rates [Hz] and iterations
 
     def covers(self, setting: Setting) -> bool:
         """Whether a setting is one of them."""
@@ -221,6 +222,7 @@ class KnownFailure:
             setting.solver in self.solvers
             and (self.variants is None or setting.variant in self.variants)
             and (self.materials is None or setting.material in self.materials)
+            and (self.places is None or (setting.rate_hz, setting.iterations) in self.places)
         )
 
 

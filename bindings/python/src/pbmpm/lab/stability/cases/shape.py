@@ -8,7 +8,7 @@ import numpy as np
 
 import pbmpm
 
-from .case import ELASTIC, PRIMAL, VISCO, Check, HardCase, Kind, Setting, sound_modulus
+from .case import DUAL, ELASTIC, PRIMAL, VISCO, Check, HardCase, Kind, KnownFailure, Setting, sound_modulus
 from .watch import GRAVITY, Watch, make_world, vector
 
 CELL = 0.1  # [m]
@@ -228,5 +228,13 @@ CASES = (
         "finite; none inside an obstacle; what has not passed has stopped",
         squeeze,
         materials=(ELASTIC, VISCO),
+        known_failures=(
+            KnownFailure(
+                "one iteration holds too soft a body, which goes through; at 120 Hz two particles still fall in the slot at the end",
+                solvers=(DUAL,),
+                materials=(ELASTIC,),
+                places=((120.0, 1),),
+            ),
+        ),
     ),
 )
