@@ -449,14 +449,14 @@ double constraints_work(const ContactFrame *frame, const float *gradient, const 
     return work;
 }
 
-double constraints_staying_work(const ContactFrame *frame, const float *gradient, int32_t block)
+double constraints_staying_work(const ContactFrame *frame, const float *force, int32_t block)
 {
     double work = 0.0;
     if (frame->colliders->contacts == 0) return work;
     const BlockContacts list = contacts_of(frame, block);
     for (uint32_t i = list.begin; i < list.end; i++) {
         const Contact *contact = &list.contact[i];
-        if (contact->stays && is_held(contact)) work += (double)along(gradient + list.node + contact->node * K_NODE_WIDTH, contact->surface);
+        if (contact->stays && is_held(contact)) work += (double)along(force + list.node + contact->node * K_NODE_WIDTH, contact->surface);
     }
     return work;
 }

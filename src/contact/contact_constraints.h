@@ -104,9 +104,9 @@ double constraints_friction_loss(const ContactFrame *frame, const float *u, floa
  * (gradient - friction) . surface over active contacts. */
 double constraints_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block);
 
-/* The work that nodes that stay (joint.h) do on the others: gradient . surface. They are their own surfaces: what walls that stand still do to them adds up to nothing, so
- * it counts with its sign. */
-double constraints_staying_work(const ContactFrame *frame, const float *gradient, int32_t block);
+/* The work of what holds nodes that stay (joint.h): force . surface, their surface being their own motion. Walls that stand still do none to all of them together, so it
+ * counts with its sign. */
+double constraints_staying_work(const ContactFrame *frame, const float *force, int32_t block);
 
 /* What active contacts of moving surfaces do, with its sign: what recedes takes energy. */
 typedef struct ContactExchange {

@@ -255,6 +255,7 @@ static const double AT_SURFACE = 1e-3; /* [cells] before a surface: there a way 
 static const double LONGEST_UNSEEN = 0.5, LONGEST_UNSEEN_BAKED = 0.25; /* [cells]; by trial */
 static const double SHALLOW = 0.75; /* of the way to the middle of an obstacle: what ends there is nearer to the face that it came through, in spite of roundings */
 static const double NUDGED_MOST = 0.1; /* [cells]: what crowded particles move beside their way */
+static const double CARRIED_MOST = 1.0; /* [cells per substep]: what an obstacle that is faster lands on is not carried along; by trial */
 
 /* The longest way [cells] that needs no look; infinite for what cannot be passed. */
 static double longest_unseen(const ContactFrame *frame, const Obstacle *o)
@@ -343,7 +344,7 @@ static bool hold_back(const ContactFrame *frame, const View *view, const Pushed 
     const uint32_t row = one->row;
     const Obstacle *o = &view->local;
     double from[3] = {0}, way[3] = {0}, back[3], normal[3], length2 = 0.0;
-    float surface[3];
+    float surface[3], carried2 = 0.0f;
     for (int a = 0; a < p->dimension; a++) {
         way[a] = (double)(place_in_block(frame, p, one->block, row, a) - particles_spare(p, CLASS_VECTOR, a)[row]);
         from[a] = (place_in_view(view, p, row, a) - way[a]) * frame->cell_size;
@@ -353,10 +354,12 @@ static bool hold_back(const ContactFrame *frame, const View *view, const Pushed 
         obstacle_motion(o, from, frame->cell_size, frame->max_displacement, surface);
         length2 = 0.0;
         for (int a = 0; a < p->dimension; a++) {
+            carried2 += surface[a] * surface[a];
             from[a] += (double)surface[a] * frame->cell_size;
             way[a] -= (double)surface[a];
             length2 += way[a] * way[a];
         }
+        if ((double)carried2 > CARRIED_MOST * CARRIED_MOST) return false;
     }
     if (!(length2 > unseen * unseen) || !slide(frame, o, from, way, back, normal)) return false;
     put_back(frame, view, one, back, normal, sum);
@@ -375,7 +378,7 @@ static bool hold_block(const ContactFrame *frame, const Obstacle *o, Particles *
 {
     const uint32_t *begin = frame->grid->block_begin.data;
     const double unseen = longest_unseen(frame, o);
-    if (!o->moves && !(unseen < NUDGED_MOST + (double)((const float *)frame->grid->travel.data)[block])) return false;
+    if (!(unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block])) return false;
     const View view = view_from(frame, o, block);
     bool held = false;
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {

@@ -132,7 +132,7 @@ static void start_solids(World *world, int32_t block, size_t begin, size_t end)
             node[i + c] = node[i + 3] > 0.0f ? world->args.grid.node_before[i + c] - held * world->args.gravity[c] : 0.0f;
 }
 
-/* A body whose sketch gained energy goes where the dual leads. */
+/* A body whose sketch gained energy goes where the push of the pressures leads. */
 static void leave_sketch(World *world, int32_t block, size_t begin, size_t end)
 {
     if (primal_sketch_gained(world, block)) memcpy((float *)world->grid.node.data + begin, (const float *)world->joint.node.data + begin, (end - begin) * sizeof(float));

@@ -4,7 +4,8 @@
  * on one grid (a partitioned method: C. Felippa, K. Park, C. Farhat, "Partitioned analysis of coupled mechanical systems", Comput. Methods Appl. Mech. Eng. 190,
  * 2001):
  *
- *     sketch  the primal solves for solids, under the pressures p that liquids start the substep from, to v. Bodies whose v has gained energy have none;
+ *     sketch  the primal solves for solids, under the pressures p that liquids start the substep from, to v. A body that gained energy by it
+ *             has no sketch: its v is where the push of p leads;
  *     dual    finds the pressures. It starts at v: its predictor is v less the push of p. Solids resist what strains them beside v;
  *     primal  solves again under the pressures found, from where they lead.
  *

@@ -428,11 +428,23 @@ def test_every_known_failure_covers_a_setting_of_the_map() -> None:
 
 
 def test_known_failure_covers_what_it_names() -> None:
-    known = KnownFailure("why", solvers=("paper",), variants=("clamp",), materials=("elastic",), places=((60.0, 1),))
+    known = KnownFailure("why", solvers=("paper",), variants=("clamp",), materials=("elastic",), rates_and_iterations=((60.0, 1),))
     setting = Setting("elastic", 2, "clamp", 60.0, 1)
     assert known.covers(setting)
     others = ({"solver": "dual"}, {"variant": "delete"}, {"material": "sand"}, {"rate_hz": 120.0}, {"iterations": 2})
     assert not any(known.covers(replace(setting, **other)) for other in others)
+
+
+def test_known_failure_explains_its_check_alone() -> None:
+    """Another check that fails, or a figure that is not finite, is a failure that should not be."""
+    case = HardCase("H99", "title", "origin", "criterion", lambda _: [], known_failures=(KnownFailure("why", ("paper",), check="speed"),))
+    setting = Setting("elastic", 2, "plain", 60.0, 5)
+
+    def reason(**figures: float) -> str:
+        return case.outcome(setting, [Check(name, figure, 1.0) for name, figure in figures.items()], 0.1).known_failure
+
+    assert reason(speed=2.0, lost=0.0) == "why"
+    assert reason(speed=2.0, lost=2.0) == reason(speed=math.nan, lost=0.0) == ""
 
 
 def test_find_case() -> None:

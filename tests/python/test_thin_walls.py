@@ -71,18 +71,3 @@ def test_water_that_is_thrown_into_a_corner_does_not_pass_it(cells: float, shift
             inside = ((world.positions.array() - shift * CELL) @ axes)[order]
             assert before is None or not passed(before, inside, thick).any()
             before = inside
-
-
-@pytest.mark.parametrize("cells", [1.5, 3.0, 5.0])
-def test_a_fast_thin_plate_carries_sand_along(cells: float) -> None:
-    """A ball of sand floats; a plate of a fifth of a cell runs into it, with so many cells per step. As long as plates above one cell per step carried nothing, 4.5, 0.9 and
-    2.7 % of the sand ended behind it."""
-    with pbmpm.World(2, CELL, gravity=[0.0, 0.0], threads=1) as world:
-        world.fill(pbmpm.Sphere([20 * CELL, 0.0], 3 * CELL), world.add_material(pbmpm.Sand()))
-        place = 10 * CELL
-        plate = world.add_collider(pbmpm.Box([place, 0.0], [0.1 * CELL, 12 * CELL]), kinematic=True)
-        while place < 40 * CELL:
-            place += cells * CELL
-            plate.move([place, 0.0])
-            world.step(1 / 60)
-        assert (world.positions.array()[:, 0] > place).all()

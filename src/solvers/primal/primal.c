@@ -260,6 +260,7 @@ static Primal begin_solve(World *world, const ContactFrame *contacts, bool sketc
     }
     primal_evaluate_first(&p, &loops);
     primal_accept(&p, NULL);
+    if (p.joint) primal_note_driven(&p);
     primal_add_pass(&p, &loops, primal_weigh_nodes);
     multilevel_weigh(&world->primal.multilevel, &loops, p.change[0], p.change[1], OVERLAP);
     primal_run_and_gather(&p, &loops);

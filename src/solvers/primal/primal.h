@@ -22,7 +22,8 @@
  *
  * Of bodies with liquid this judges the elastic energy alone: see primal_liquid.c for the rest. In the joint solver it judges all, and Psi has the energy that the liquid
  * has there, see joint.h, which falls by the work of its pressures: a block that water lifts gains no more than that. Where the elastic energy alone was judged, splashes
- * doubled theirs in each substep, and blocks at rest failed. What the search leaves eddies pay, if they have as much: liquid that starts again loses its motion.
+ * doubled theirs in each substep, and blocks at rest failed. Eddies pay for the gain that a second search leaves, if they have as much:
+ * liquid that starts again loses its motion.
  *
  * T is symmetric for small D only. Solids that liquid presses by p and that turn by w have the skew part p w, a couple in the sense of the turn. The liquid, with -p I,
  * has none against it: a jelly of eight cells below 18 of water spun up by 6 % in each substep of 1/60 s. But inner forces turn nothing. So solids among liquid have the
@@ -53,11 +54,10 @@ void primal_free(World *world);
 /* The gradient of the energy where primal_sketch() or primal_solve() ended, per node. */
 const float *primal_gradient(const World *world);
 
-/* Half of the iterations, without impulses: what the joint solver begins with. Returns how many bodies gained energy: what they have is far from a solution. Nodes that
- * stay give none of it: what springs take from them they lose to the push that follows. */
+/* Half of the iterations, without impulses: what the joint solver begins with. Returns how many bodies gained energy: they are far from a solution. */
 uint32_t primal_sketch(World *world, const ContactFrame *contacts);
 
-/* Whether the body in a block did in the last sketch. */
+/* Whether the body of a block gained energy in the last sketch. */
 bool primal_sketch_gained(const World *world, int32_t block);
 
 void primal_solve(World *world, const ContactFrame *contacts);

@@ -47,10 +47,8 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[9 + c] += mass * u;
         }
     }
-    if (!p->as_sent) {
-        sum[2] = constraints_work(p->contacts, p->gradient, p->best, p->slip_min, block);
-        if (!p->sketches) sum[2] += constraints_staying_work(p->contacts, p->gradient, block);
-    } else {
+    if (!p->as_sent) sum[2] = constraints_work(p->contacts, p->gradient, p->best, p->slip_min, block);
+    else {
         ContactExchange exchange = {0};
         constraints_exchange(p->contacts, p->gradient, p->best, p->slip_min, block, &exchange);
         memcpy(sum + CHECK_SUMS, &exchange, sizeof exchange);
@@ -100,6 +98,11 @@ void primal_note_stiffness(Primal *p)
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) primal_body_of(p, block)->stiff += sums[(size_t)block * SUMS + 1];
 }
 
+void primal_note_driven(Primal *p)
+{
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) primal_body_of(p, block)->driven += constraints_staying_work(p->contacts, p->gradient, block);
+}
+
 /* Whether all obstacles go where the host sends them: not as matter pushes them. */
 static bool move_as_sent(const ContactFrame *frame)
 {
@@ -116,7 +119,7 @@ uint32_t primal_check_bodies(Primal *p)
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    for (int32_t i = 0; i < p->world->grid.bodies; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .held = body[i].held, .stiff = body[i].stiff, .with_liquid = body[i].with_liquid};
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .held = body[i].held, .stiff = body[i].stiff, .work = body[i].driven, .driven = body[i].driven, .with_liquid = body[i].with_liquid};
     primal_over_blocks(p, sum_motion);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = primal_body_of(p, block);

@@ -13,7 +13,7 @@ import itertools
 import math
 import time
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import pbmpm
@@ -208,13 +208,14 @@ class Outcome:
 
 @dataclass(frozen=True)
 class KnownFailure:
-    """Settings of a case that do not pass, and why. None: all."""
+    """Settings of a case that do not pass, and why. None: all. With the name of a check only that check may fail, with a finite figure."""
 
     reason: str
     solvers: tuple[str, ...]
     variants: tuple[str, ...] | None = None
     materials: tuple[str, ...] | None = None
-    places: tuple[tuple[float, int], ...] | None = None  #: rates [Hz] and iterations
+    rates_and_iterations: tuple[tuple[float, int], ...] | None = None  #: rates in Hz
+    check: str | None = None
 
     def covers(self, setting: Setting) -> bool:
         """Whether a setting is one of them."""
@@ -222,8 +223,12 @@ class KnownFailure:
             setting.solver in self.solvers
             and (self.variants is None or setting.variant in self.variants)
             and (self.materials is None or setting.material in self.materials)
-            and (self.places is None or (setting.rate_hz, setting.iterations) in self.places)
+            and (self.rates_and_iterations is None or (setting.rate_hz, setting.iterations) in self.rates_and_iterations)
         )
+
+    def explains(self, failed: Iterable[Check]) -> bool:
+        """Whether these checks may fail."""
+        return self.check is None or all(check.name == self.check and math.isfinite(check.figure) for check in failed)
 
 
 @dataclass(frozen=True)
@@ -280,9 +285,10 @@ class HardCase:
             return dict.fromkeys((rate, iterations or count) for rate, count in self.ladder)
         return ((rate_hz or self.rate_hz, iterations or self.iterations),)
 
-    def known_failure(self, setting: Setting) -> str:
-        """Why a setting is known to fail; empty when it should pass."""
-        return next((known.reason for known in self.known_failures if known.covers(setting)), "")
+    def known_failure(self, setting: Setting, failed: Iterable[Check] = ()) -> str:
+        """Why a setting is known to fail, with these checks; empty when it should pass."""
+        checks = tuple(failed)
+        return next((known.reason for known in self.known_failures if known.covers(setting) and known.explains(checks)), "")
 
     def judges_goals(self, setting: Setting) -> bool:
         """Whether goals count at a setting: at the case's own, and where both are at least as fine. A case with a ladder is
@@ -293,7 +299,9 @@ class HardCase:
 
     def outcome(self, setting: Setting, checks: Iterable[Check], seconds: float) -> Outcome:
         """What the checks of a run mean."""
-        return Outcome(self.id, setting, tuple(checks), seconds, self.known_failure(setting), self.judges_goals(setting))
+        outcome = Outcome(self.id, setting, tuple(checks), seconds, judges_goals=self.judges_goals(setting))
+        failed = [check for check in outcome.judged if not check.passed]
+        return replace(outcome, known_failure=self.known_failure(setting, failed))
 
     def run(self, setting: Setting) -> Outcome:
         """Runs the case once."""
