@@ -449,18 +449,6 @@ double constraints_work(const ContactFrame *frame, const float *gradient, const 
     return work;
 }
 
-double constraints_staying_work(const ContactFrame *frame, const float *force, int32_t block)
-{
-    double work = 0.0;
-    if (frame->colliders->contacts == 0) return work;
-    const BlockContacts list = contacts_of(frame, block);
-    for (uint32_t i = list.begin; i < list.end; i++) {
-        const Contact *contact = &list.contact[i];
-        if (contact->stays && is_held(contact)) work += (double)along(force + list.node + contact->node * K_NODE_WIDTH, contact->surface);
-    }
-    return work;
-}
-
 void constraints_exchange(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block, ContactExchange *sum)
 {
     if (frame->colliders->contacts == 0) return;
@@ -469,7 +457,7 @@ void constraints_exchange(const ContactFrame *frame, const float *gradient, cons
         const Contact *contact = &list.contact[i];
         const size_t node = list.node + contact->node * K_NODE_WIDTH;
         float given[3];
-        if (!contact->active) continue;
+        if (contact->stays || !contact->active) continue;
         given_by(contact, gradient + node, u + node, least, given);
         const double size = sqrt((double)along(given, given));
         sum->work += (double)along(given, contact->surface);
@@ -478,6 +466,19 @@ void constraints_exchange(const ContactFrame *frame, const float *gradient, cons
             sum->given[a] += (double)given[a];
             sum->surface[a] += size * (double)contact->surface[a];
         }
+    }
+}
+
+void constraints_exchange_staying(const ContactFrame *frame, const float *gradient, int32_t block, ContactExchange *sum)
+{
+    if (frame->colliders->contacts == 0) return;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        const Contact *contact = &list.contact[i];
+        const float *given = gradient + list.node + contact->node * K_NODE_WIDTH;
+        if (!contact->stays || !is_held(contact)) continue;
+        sum->work += (double)along(given, contact->surface);
+        for (int a = 0; a < 3; a++) sum->given[a] += (double)given[a];
     }
 }
 

@@ -104,10 +104,6 @@ double constraints_friction_loss(const ContactFrame *frame, const float *u, floa
  * (gradient - friction) . surface over active contacts. */
 double constraints_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block);
 
-/* The work of what holds nodes that stay (joint.h): force . surface, their surface being their own motion. Walls that stand still do none to all of them together, so it
- * counts with its sign. */
-double constraints_staying_work(const ContactFrame *frame, const float *force, int32_t block);
-
 /* What active contacts of moving surfaces do, with its sign: what recedes takes energy. */
 typedef struct ContactExchange {
     double work, size;             /* sums of work and of sizes of impulses */
@@ -118,6 +114,9 @@ enum { EXCHANGE_SUMS = sizeof(ContactExchange) / sizeof(double) };
 
 /* Adds those of a block. */
 void constraints_exchange(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block, ContactExchange *sum);
+
+/* Adds the work and the impulses of what holds a block's nodes that stay (joint.h), whose surface is their own motion. */
+void constraints_exchange_staying(const ContactFrame *frame, const float *gradient, int32_t block, ContactExchange *sum);
 
 /* The work of moving surfaces on a body that gained this momentum. Impulses of an unfinished solution do not add up to it: what is missing goes with the surfaces' mean
  * motion. So energies are compared alike by all who move along, however far the solution is. */

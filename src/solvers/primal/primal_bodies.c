@@ -47,12 +47,10 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[9 + c] += mass * u;
         }
     }
+    ContactExchange exchange = {0};
     if (!p->as_sent) sum[2] = constraints_work(p->contacts, p->gradient, p->best, p->slip_min, block);
-    else {
-        ContactExchange exchange = {0};
-        constraints_exchange(p->contacts, p->gradient, p->best, p->slip_min, block, &exchange);
-        memcpy(sum + CHECK_SUMS, &exchange, sizeof exchange);
-    }
+    if (p->as_sent || p->joint) constraints_exchange(p->contacts, p->gradient, p->best, p->slip_min, block, &exchange);
+    memcpy(sum + CHECK_SUMS, &exchange, sizeof exchange);
     sum[7] = (double)constraints_active(p->contacts, block);
 }
 
@@ -100,7 +98,16 @@ void primal_note_stiffness(Primal *p)
 
 void primal_note_driven(Primal *p)
 {
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) primal_body_of(p, block)->driven += constraints_staying_work(p->contacts, p->gradient, block);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) constraints_exchange_staying(p->contacts, p->gradient, block, &primal_body_of(p, block)->driven);
+}
+
+/* What else a body gained of momentum came from nodes that stay, or a solution that is not finished has left it. It does work as what moves with the body's mean would: so the
+ * check does not depend on who looks. */
+static double driven_work(const BodySum *body, const double gained[3])
+{
+    double work = body->driven.work;
+    for (int c = 0; c < 3; c++) work += (gained[c] - body->exchange.given[c] - body->driven.given[c]) * body->start[c];
+    return work;
 }
 
 /* Whether all obstacles go where the host sends them: not as matter pushes them. */
@@ -119,7 +126,7 @@ uint32_t primal_check_bodies(Primal *p)
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    for (int32_t i = 0; i < p->world->grid.bodies; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .held = body[i].held, .stiff = body[i].stiff, .work = body[i].driven, .driven = body[i].driven, .with_liquid = body[i].with_liquid};
+    for (int32_t i = 0; i < p->world->grid.bodies; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .held = body[i].held, .stiff = body[i].stiff, .driven = body[i].driven, .with_liquid = body[i].with_liquid};
     primal_over_blocks(p, sum_motion);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = primal_body_of(p, block);
@@ -148,8 +155,8 @@ uint32_t primal_check_bodies(Primal *p)
     for (int32_t i = 0; i < p->world->grid.bodies; i++) {
         double gave[3];
         for (int c = 0; c < 3; c++) gave[c] = body[i].moved[c] - body[i].momentum[c];
-        body[i].work += constraints_exchanged_work(&body[i].exchange, gave);
         for (int c = 0; c < 3 && body[i].mass > 0.0; c++) body[i].start[c] = body[i].momentum[c] / body[i].mass;
+        body[i].work += p->joint ? driven_work(&body[i], gave) : constraints_exchanged_work(&body[i].exchange, gave);
         body[i].failed = gained(p, &body[i]);
         body[i].unsound = body[i].unsound || body[i].failed;
         failed += body[i].failed;

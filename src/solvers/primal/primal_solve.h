@@ -16,8 +16,8 @@ _Static_assert((int)SUMS >= 2 * PRIMAL_MEMORY + 6, "a step adds up so many");
 /* What a body had and has: see primal.h. */
 typedef struct BodySum {
     double before, after, work;
-    ContactExchange exchange; /* of moving surfaces, where all go as they are sent; else `work` has it */
-    double driven;            /* part of `work`: see primal_note_driven() */
+    ContactExchange exchange; /* of moving surfaces, where all go as they are sent; in the joint solver of nodes that stay; else `work` has it */
+    ContactExchange driven;   /* of nodes that stay, where the solution began */
     double fallen;            /* work of gravity and forces, which `after` counts as a loss */
     double stiff;             /* sum of the nodes' stiffnesses */
     double still;             /* sum m/2 |u*|^2: with it the size of the energies that were compared on the way */
@@ -190,8 +190,8 @@ void primal_find_leaning(Primal *p);
 /* After weigh_nodes(), which sums it. */
 void primal_note_stiffness(Primal *p);
 
-/* In the joint solver, where a solution begins: the work of what holds nodes that stay. There the liquid has the dual's pressures, so the gradient is what walls give. What
- * springs do to these nodes after that is no work of walls. Counted as such it was energy out of nothing, and stiff clay that heavy liquid ran into burst. */
+/* In the joint solver, where a solution begins: what holds nodes that stay. There the liquid has the dual's pressures, so the gradient is what walls give. What springs do to
+ * these nodes after that is no work of walls. Counted as such it was energy out of nothing, and stiff clay that heavy liquid ran into burst. */
 void primal_note_driven(Primal *p);
 
 /* Kinetic energy beside the mean motion. */
