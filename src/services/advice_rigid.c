@@ -247,10 +247,13 @@ static bool enters(const Solid *body, const Solid *other)
     return false;
 }
 
-/* The first that a body is in, or none. A pair of bodies is told once. */
-static bool is_in_another(const World *world, uint32_t place)
+/* Whether a body is in another, or would be so many cells further down. A pair of bodies is told once. */
+static bool is_in_another(const World *world, uint32_t place, double further)
 {
-    const Solid body = solid_where(world, &world->colliders.slot[place]);
+    Solid body = solid_where(world, &world->colliders.slot[place]);
+    double down[3];
+    gravity_direction(world, down);
+    for (int a = 0; a < world->def.dimension; a++) body.position[a] += further * down[a] * (double)world->def.cell_size;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *other = &world->colliders.slot[c];
         if (c == place || other->generation == 0 || (c < place && body_at(world, c) && moves(other))) continue;
@@ -265,8 +268,10 @@ void advise_rigid_enters(Adviser *adviser)
     const World *world = adviser->world;
     for (uint32_t place = 0; place < world->colliders.used; place++) {
         const Collider *body = body_at(world, place);
-        if (!body || !moves(body) || !is_in_another(world, place)) continue; /* what turns about a pivot alone may be in its bearing */
-        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_KNOWN_LIMIT, .collider = {place, body->generation},
-                                             .text = "a rigid body has entered another obstacle: bodies feel matter and the domain's walls alone; a physics engine keeps them apart"});
+        if (!body || !moves(body) || !is_in_another(world, place, 1.0)) continue; /* what turns about a pivot alone may be in its bearing */
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_KNOWN_LIMIT, .collider = {place, body->generation},
+                               .text = "a rigid body has entered another obstacle: bodies feel matter and the domain's walls alone; a physics engine keeps them apart"};
+        if (!is_in_another(world, place, 0.0)) advice.text = "a rigid body lies on another obstacle and falls through it: bodies feel matter and the domain's walls alone; a physics engine keeps them apart";
+        adviser_give(adviser, advice);
     }
 }

@@ -217,7 +217,7 @@ static void test_it_is_told_where_a_body_glides(void)
         }
 }
 
-/* A box that falls onto a box, onto a plane, and onto a box that is a body, too. Beside an obstacle nothing is told; nor of a wheel about its axle. */
+/* A box that lies half a cell above a box, a plane, or a box that is a body, too, and falls into it. Beside an obstacle nothing is told; nor of a wheel about its axle. */
 static void test_it_is_told_where_a_body_enters_another(void)
 {
     static const char *const what[] = {"a box", "a plane", "a body", "beside"};
@@ -230,8 +230,10 @@ static void test_it_is_told_where_a_body_enters_another(void)
             if (other == 2) below = make_rigid(body.world, box, 500, NULL);
             advance(&body);
             if (other == 2) advance(&below);
-            TEST_ASSERT_FALSE(advised(body.world, DT, "has entered"));
+            TEST_ASSERT_FALSE(advised(body.world, DT, "obstacle"));
             set_gravity(body.world, 0, -10, 0);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(other != 3, advised(body.world, DT, "falls through"), what[other]);
+            TEST_ASSERT_FALSE(advised(body.world, DT, "has entered"));
             for (int n = 0; n < 15; n++) step(&body);
             TEST_ASSERT_EQUAL_INT_MESSAGE(other != 3, advised(body.world, DT, "has entered"), what[other]);
         }
