@@ -477,8 +477,13 @@ void constraints_exchange_staying(const ContactFrame *frame, const float *gradie
         const Contact *contact = &list.contact[i];
         const float *given = gradient + list.node + contact->node * K_NODE_WIDTH;
         if (!contact->stays || !is_held(contact)) continue;
+        const double size = sqrt((double)along(given, given));
         sum->work += (double)along(given, contact->surface);
-        for (int a = 0; a < 3; a++) sum->given[a] += (double)given[a];
+        sum->size += size;
+        for (int a = 0; a < 3; a++) {
+            sum->given[a] += (double)given[a];
+            sum->surface[a] += size * (double)contact->wall[a];
+        }
     }
 }
 

@@ -115,7 +115,7 @@ enum { EXCHANGE_SUMS = sizeof(ContactExchange) / sizeof(double) };
 /* Adds those of a block. */
 void constraints_exchange(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block, ContactExchange *sum);
 
-/* Adds the work and the impulses of what holds a block's nodes that stay (joint.h), whose surface is their own motion. */
+/* Adds those of what holds a block's nodes that stay (joint.h): work by their own motion, and the motion of their walls. */
 void constraints_exchange_staying(const ContactFrame *frame, const float *gradient, int32_t block, ContactExchange *sum);
 
 /* The work of moving surfaces on a body that gained this momentum. Impulses of an unfinished solution do not add up to it: what is missing goes with the surfaces' mean

@@ -22,6 +22,7 @@ typedef struct Contact {
     float gap; /* how far the node may approach; 0 inside */
     float normal[3];
     float surface[3]; /* displacement of the obstacle's surface */
+    float wall[3];    /* that of the wall, at a node that stays */
 } Contact;
 
 /* A thing of the host's that is an obstacle, see colliders.h. */

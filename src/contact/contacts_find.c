@@ -166,14 +166,18 @@ static uint32_t contacts_that_stay(const ContactFrame *frame, int32_t block, int
 {
     uint16_t obstacle[3] = {(uint16_t)frame->colliders->obstacle_count};
     const float *normal[3];
-    const int faces = walls_faces(frame->staying, (uint32_t)(block * frame->grid->block_cells + node), obstacle, normal);
+    const uint32_t at = (uint32_t)(block * frame->grid->block_cells + node);
+    const int faces = walls_faces(frame->staying, at, obstacle, normal);
     uint32_t count = 0;
     for (int k = faces - 1; k > 0; k--, count++)
         if (out) {
             out[count] = (Contact){.node = (uint16_t)node, .obstacle = obstacle[k], .friction = PBMPM_FRICTION_SLIP, .stays = true};
             memcpy(out[count].normal, normal[k], sizeof out[count].normal);
         }
-    if (out) out[count] = (Contact){.node = (uint16_t)node, .obstacle = obstacle[0], .friction = PBMPM_FRICTION_STICK, .stays = true};
+    if (out) {
+        out[count] = (Contact){.node = (uint16_t)node, .obstacle = obstacle[0], .friction = PBMPM_FRICTION_STICK, .stays = true};
+        walls_motion(frame->staying, at, out[count].wall);
+    }
     return count + 1;
 }
 

@@ -34,6 +34,11 @@ int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const f
     return n->normals;
 }
 
+void walls_motion(const Walls *walls, uint32_t node, float motion[3])
+{
+    memcpy(motion, ((const WallNode *)walls->node.data + walls_place(walls, node) - 1)->surface, 3 * sizeof *motion);
+}
+
 bool walls_hold(const Walls *walls, uint32_t node)
 {
     const uint32_t place = walls_place(walls, node);

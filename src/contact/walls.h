@@ -40,6 +40,9 @@ bool walls_hold(const Walls *walls, uint32_t node);
 /* The obstacles that a listed node is at, the nearest first, and their normals there. Returns their number. */
 int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const float *normal[3]);
 
+/* The displacement [cells] of the nearest wall, at a listed node. */
+void walls_motion(const Walls *walls, uint32_t node, float motion[3]);
+
 /* Makes the displacements of the nodes admissible. In between contacts of nodes farther off are obeyed. `linear`: for responses, without the walls' own motion,
  * without friction and contacts but for those of nodes that touch. `mark`: only nodes in marked blocks have new momenta; null: all. */
 void walls_apply(const Walls *walls, const ContactFrame *frame, Pool *pool, bool linear, const uint8_t *mark);

@@ -101,12 +101,13 @@ void primal_note_driven(Primal *p)
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) constraints_exchange_staying(p->contacts, p->gradient, block, &primal_body_of(p, block)->driven);
 }
 
-/* What else a body gained of momentum came from nodes that stay, or a solution that is not finished has left it. It does work as what moves with the body's mean would: so the
- * check does not depend on who looks. */
+/* What else a body gained of momentum came from nodes that stay, or a solution that is not finished has left it. Seen from the walls it does no work. So the check does not
+ * depend on who looks: a float in a tank that sank or rose by two cells per step went elsewhere by five. What no wall holds is looked at from its mean motion. */
 static double driven_work(const BodySum *body, const double gained[3])
 {
-    double work = body->driven.work;
-    for (int c = 0; c < 3; c++) work += (gained[c] - body->exchange.given[c] - body->driven.given[c]) * body->start[c];
+    const ContactExchange *driven = &body->driven;
+    double work = driven->work;
+    for (int c = 0; c < 3; c++) work += (gained[c] - body->exchange.given[c] - driven->given[c]) * (driven->size > 0.0 ? driven->surface[c] / driven->size : body->start[c]);
     return work;
 }
 
