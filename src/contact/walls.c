@@ -1,6 +1,7 @@
 #include "contact/walls.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "contact/wall_bodies.h"
 #include "contact/walls_job.h"
