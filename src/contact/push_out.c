@@ -255,7 +255,7 @@ static const double AT_SURFACE = 1e-3; /* [cells] before a surface: there a way 
 static const double LONGEST_UNSEEN = 0.5, LONGEST_UNSEEN_BAKED = 0.25; /* [cells]; by trial */
 static const double SHALLOW = 0.75; /* of the way to the middle of an obstacle: what ends there is nearer to the face that it came through, in spite of roundings */
 static const double NUDGED_MOST = 0.1; /* [cells]: what crowded particles move beside their way */
-static const double CARRIED_MOST = 1.0; /* [cells per substep]: what an obstacle that is faster lands on is not carried along; by trial */
+static const double CARRIED_MOST = 1.0; /* [cells per substep]: where a faster obstacle went, no node felt it, and no list has what it passed. With more a body left the domain (H16, 100 cells per step) */
 
 /* The longest way [cells] that needs no look; infinite for what cannot be passed. */
 static double longest_unseen(const ContactFrame *frame, const Obstacle *o)

@@ -98,7 +98,7 @@ typedef struct Turn {
 static Turn turn_of(const Builder *b, const Bound *bound)
 {
     static const double LEAST_SLOPE = 0.5; /* by trial: a quarter of that of a plane; less is between two walls, which have no normal in common */
-    static const double SMOOTH = 0.89; /* by trial: cosine of the turn per cell: of a ball with a radius of two cells; with 0.9 its lift is 9 % too large */
+    static const double SMOOTH = 0.875; /* cosine of the turn per cell of a ball with a radius R of two cells, 1 - 1 / (2 R^2): smaller ones are no smooth walls. With 0.9 its lift is 9 % too large */
     const Grid *grid = b->frame->grid;
     const Face *face = &bound->face[0];
     Turn turn = {.bend = 0.0, .rounded = 0.0};

@@ -22,7 +22,7 @@
  *
  * Of bodies with liquid this judges the elastic energy alone: see primal_liquid.c for the rest. In the joint solver it judges all, and Psi has the energy that the liquid
  * has there, see joint.h, which falls by the work of its pressures: a block that water lifts gains no more than that. Where the elastic energy alone was judged, splashes
- * doubled theirs in each substep, and blocks at rest failed. Eddies pay for the gain that a second search leaves, if they have as much:
+ * doubled theirs in each substep, and blocks at rest failed. Eddies pay for the gain that four searches leave, if they have as much:
  * liquid that starts again loses its motion.
  *
  * T is symmetric for small D only. Solids that liquid presses by p and that turn by w have the skew part p w, a couple in the sense of the turn. The liquid, with -p I,

@@ -37,10 +37,6 @@ typedef struct BodySum {
 /* Translations along and rotations about the axes, per radian. */
 enum { RIGID_MODES = 6 };
 
-/* How hard a start is held back, over what yields to it: a node's stiffness, or a body's mass. With 1 bodies at rest started with more energy than they had; 30 mended half of
- * that. Dozens stop a rigid body. One beside a hinge is not thrown. By trial. */
-static const double HELD_HARD = 1000.0;
-
 /* A body's rigid motions: see primal_rigid.c. */
 typedef struct RigidBody {
     bool used;
