@@ -449,6 +449,18 @@ double constraints_work(const ContactFrame *frame, const float *gradient, const 
     return work;
 }
 
+/* Adds an impulse. The motion of the surfaces is the mean of `motion`. */
+static void add_exchange(const Contact *contact, const float given[3], const float motion[3], ContactExchange *sum)
+{
+    const double size = sqrt((double)along(given, given));
+    sum->work += (double)along(given, contact->surface);
+    sum->size += size;
+    for (int a = 0; a < 3; a++) {
+        sum->given[a] += (double)given[a];
+        sum->surface[a] += size * (double)motion[a];
+    }
+}
+
 void constraints_exchange(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block, ContactExchange *sum)
 {
     if (frame->colliders->contacts == 0) return;
@@ -459,13 +471,7 @@ void constraints_exchange(const ContactFrame *frame, const float *gradient, cons
         float given[3];
         if (contact->stays || !contact->active) continue;
         given_by(contact, gradient + node, u + node, least, given);
-        const double size = sqrt((double)along(given, given));
-        sum->work += (double)along(given, contact->surface);
-        sum->size += size;
-        for (int a = 0; a < 3; a++) {
-            sum->given[a] += (double)given[a];
-            sum->surface[a] += size * (double)contact->surface[a];
-        }
+        add_exchange(contact, given, contact->surface, sum);
     }
 }
 
@@ -477,13 +483,7 @@ void constraints_exchange_staying(const ContactFrame *frame, const float *gradie
         const Contact *contact = &list.contact[i];
         const float *given = gradient + list.node + contact->node * K_NODE_WIDTH;
         if (!contact->stays || !is_held(contact)) continue;
-        const double size = sqrt((double)along(given, given));
-        sum->work += (double)along(given, contact->surface);
-        sum->size += size;
-        for (int a = 0; a < 3; a++) {
-            sum->given[a] += (double)given[a];
-            sum->surface[a] += size * (double)contact->wall[a];
-        }
+        add_exchange(contact, given, contact->wall, sum);
     }
 }
 

@@ -49,7 +49,7 @@ def test_the_workshop_at_a_games_rate(root: Path) -> None:
 def test_clay_that_heavy_liquid_runs_into_gains_no_energy(iterations: int, modulus: float, yields_at: float) -> None:
     """A column of liquid beside stiff clay collapses in a closed box, at 30 Hz. Where they meet the sketch of the joint solver is far from done.
 
-    When it pushed the liquid all the same the clay burst: 26, 43, 40 and 33 % of the energy that the scene can turn over came out of nothing. A closed scene may
+    When it pushed the liquid all the same, that was thrown up to the ceiling: 26, 43, 40 and 33 % of the energy that the scene can turn over came out of nothing. A closed scene may
     gain 2 %, as in tests/random_scenes.py, whose seed 396074 this is.
     """
     cell, gravity = 0.016338593, 3.2056

@@ -16,7 +16,7 @@ _Static_assert((int)SUMS >= 2 * PRIMAL_MEMORY + 6, "a step adds up so many");
 /* What a body had and has: see primal.h. */
 typedef struct BodySum {
     double before, after, work;
-    ContactExchange exchange; /* of moving surfaces, where all go as they are sent; in the joint solver of nodes that stay; else `work` has it */
+    ContactExchange exchange; /* of moving surfaces, where all go as they are sent; in the joint solver, too, beside what stays; else `work` has it */
     ContactExchange driven;   /* of nodes that stay, where the solution began */
     double fallen;            /* work of gravity and forces, which `after` counts as a loss */
     double stiff;             /* sum of the nodes' stiffnesses */
@@ -187,7 +187,7 @@ void primal_find_leaning(Primal *p);
 void primal_note_stiffness(Primal *p);
 
 /* In the joint solver, where a solution begins: what holds nodes that stay. There the liquid has the dual's pressures, so the gradient is what walls give. What springs do to
- * these nodes after that is no work of walls. Counted as such it was energy out of nothing, and stiff clay that heavy liquid ran into burst. */
+ * these nodes after that is no work of walls. Counted as such it was energy out of nothing, and heavy liquid that ran into stiff clay was thrown up to the ceiling. */
 void primal_note_driven(Primal *p);
 
 /* Kinetic energy beside the mean motion. */
