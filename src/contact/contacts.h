@@ -61,7 +61,7 @@ typedef struct ContactFrame {
     const uint64_t *solid;       /* per node block: bit n, a solid reaches node n, see reach.h; null: nobody looked */
     bool liquid;                 /* there is nothing but liquid */
     bool viscous;                /* some of it has a viscosity, which walls hold: see wall_shear.h */
-    bool apart;                  /* walls leave those nodes to contacts: the joint solver */
+    bool apart;                  /* walls leave those nodes to contacts, and nodes that would follow them: the joint solver */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
     const uint64_t *grabbed; /* likewise: node n goes where the predictor says, where no obstacle is within a cell; null: none does */
     struct ObstacleCache *cache;         /* what may be taken over from the last substep; null: nothing, and nothing is kept */

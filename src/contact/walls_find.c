@@ -233,14 +233,16 @@ typedef struct Image {
     double way[3]; /* from the node [cells] */
     double weight;
     bool before; /* only nodes before all faces count */
+    bool apart;  /* not if solids reach one of them: */
+    bool solid;  /* that is so */
 } Image;
 
 /* How far [cells] beside a node is on it. Weights that are less are not worth a place. */
 static const double ON_NODE = 1e-6;
 
 /* Adds the nodes around an image to the corners, by multilinear weights times its own. `distance`: their mean distances from the faces of `profile`. False: there are
- * none. */
-static bool add_corners(Builder *b, const Bound *bound, const Image *image, const Profile *profile, int count, double distance[NORMALS_MAX])
+ * none, or not to be any. */
+static bool add_corners(Builder *b, const Bound *bound, Image *image, const Profile *profile, int count, double distance[NORMALS_MAX])
 {
     Walls *walls = b->walls;
     const int dimension = b->frame->grid->dimension;
@@ -274,8 +276,9 @@ static bool add_corners(Builder *b, const Bound *bound, const Image *image, cons
         if (image->before && !free) continue;
         share[k] = of_corner;
         sum += of_corner;
+        image->solid = image->solid || (image->apart && reach_solid(b->frame, (uint32_t)node[k]));
     }
-    if (sum < 1e-3) return false;
+    if (sum < 1e-3 || image->solid) return false;
     if (!array_grow(b->memory, &walls->corner, (size_t)walls->corners + CORNERS_MAX, sizeof(WallCorner), (size_t)walls->corners * sizeof(WallCorner))) {
         b->failed = true;
         return false;
@@ -412,15 +415,36 @@ static void set_face(WallUnilateral *u, const WallNode *node, int j, double scal
     u->surface[j] = scale == 1.0 ? 0.0f : (float)(along / (1.0 - scale));
 }
 
+/* The node follows none, so it meets obstacles by contacts. Its density is mirrored as elsewhere. */
+static void leave_to_contacts(WallNode *node)
+{
+    const float all[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
+    node->follows = false;
+    node->behind = 0.0f;
+    memcpy(node->own, all, sizeof all);
+}
+
+/* Whether a node that follows nodes with contacts has contacts, too: at obstacles that do not stick, and are no rigid bodies. These need its grip. */
+static bool may_have_contacts(const Builder *b, const Profile *profile, int count, bool sticks)
+{
+    bool may = b->frame->apart && !sticks;
+    for (int j = 0; j < count; j++) may = may && !profile[j].owner->body;
+    return may;
+}
+
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
 static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
 {
-    Image image = {.weight = 1.0, .before = true};
+    Image image = {.weight = 1.0, .before = true, .apart = may_have_contacts(b, profile, count, sticks)};
     double distance[NORMALS_MAX], scale[NORMALS_MAX];
     const uint32_t corner_begin = b->walls->corners;
     way_out(profile, count, image.way);
     const bool found = add_corners(b, bound, &image, profile, count, distance), unilateral = found && !sticks && reach_solid(b->frame, bound->node);
     WallNode *node = (WallNode *)b->walls->node.data + index; /* the list may have moved */
+    if (image.solid) {
+        leave_to_contacts(node);
+        return;
+    }
     float matrix[6];
     memcpy(matrix, rest, sizeof matrix);
     for (int j = 0; j < count; j++) {

@@ -71,7 +71,7 @@ static void limits_of_bodies(Adviser *adviser, uint32_t slot)
     /* A jelly of 5e4 or 2e5 Pa and ten cells that is put afloat has the strain of hydrostatics, at 60 and 240 Hz; one that fell by 1 to 12 cells two to four times that. */
     if (wet && loose && heap->drop_least > FALLS_IN) tell_limit(adviser, slot, "a body that fell into a liquid stays more strained than one that was put there afloat");
     if (sinks(world, def)) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above the floor, and slides; the level may be off");
-    if (wet && falls) tell_limit(adviser, slot, "where a body fell into a liquid, the liquid goes on moving by some centimetres per second");
+    if (wet && falls) tell_limit(adviser, slot, "where a body fell into a liquid, the liquid goes on moving by centimetres per second, or heaves: ten iterations or two substeps calm it");
 }
 
 void advise_known_limits(Adviser *adviser)

@@ -317,10 +317,12 @@ void advise_not_solved(Adviser *adviser)
     static const double SEEN = 0.05, POWER = 1.25; /* cells per substep; see above */
     const double error = fmin(adviser->world->record.predicted_error, moved(adviser));
     const bool wet = adviser_any_present(adviser->world, PBMPM_LIQUID);
+    const bool bodies = adviser_any_present(adviser->world, PBMPM_ELASTIC) || adviser_any_present(adviser->world, PBMPM_VISCO);
     if (error <= SEEN) return;
     pbmpm_advice advice = {.code = PBMPM_ADVICE_NOT_SOLVED, .figure = (float)error, .bound = (float)SEEN, .came_true = 1,
-                           .text = wet ? "the last substep is far from solved: liquid flows as if pressed less, and bodies are too soft"
-                                       : "the last substep is far from solved: stiffness and contact are not what they should be"};
+                           .text = wet && bodies ? "the last substep is far from solved: liquid flows as if pressed less, and bodies are too soft"
+                                   : wet         ? "the last substep is far from solved: liquid flows as if pressed less"
+                                                 : "the last substep is far from solved: stiffness and contact are not what they should be"};
     if (wet) adviser_by_substeps(adviser, pow(error / SEEN, 1.0 / POWER), &advice);
     else adviser_by_iterations(adviser, error / SEEN, &advice);
     if (advice.change == PBMPM_CHANGE_NONE) adviser_by_substeps(adviser, pow(error / SEEN, 1.0 / POWER), &advice);

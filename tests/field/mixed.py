@@ -163,6 +163,29 @@ def jelly_in_a_glass(run: Run, thick: int) -> None:
         run.check("rms speed", float(np.sqrt((world.velocities.array() ** 2).sum(1).mean())), 0, 0.02, "m/s", why="at rest in the end; 24 cells deep")
 
 
+@case(
+    stiff=dict(density=2500, modulus=1e7),
+    jelly=dict(density=1500, modulus=1e5),
+    clay=dict(density=1800, modulus=1e5, yields_at=0.05),
+    stiff_off=dict(density=2500, modulus=1e7, off=0.5),
+    jelly_off=dict(density=1500, modulus=1e5, off=0.5),
+    clay_off=dict(density=1800, modulus=1e5, yields_at=0.05, off=0.5),
+)
+def over_the_floor(run: Run, density: float, modulus: float, yields_at: float = 0.0, off: float = 0.0) -> None:
+    """A pool of 20 cells over a body of 8, which starts a cell above the floor; all lies so many cells off the grid."""
+    cell, width, depth, half = 0.025, 0.6, 0.5, 0.1
+    start = off * cell
+    kind = Visco(density=density, young_modulus=modulus, yield_strain=yields_at) if yields_at else Elastic(density=density, young_modulus=modulus)
+    with run.world(2, cell, domain=((start, start), (start + width, start + 2.5 * depth))) as world:
+        places = lattice((0, 0), (width, depth), cell / 2)
+        inside = (abs(places - (width / 2, half + cell)) < half).all(1)
+        world.add_particles(world.add_material(Liquid()), start + places[~inside])
+        world.add_particles(world.add_material(kind), start + places[inside])
+        run.steps(world, 8)
+        run.near("level", 2 * (world.positions.array()[:, 1].mean() - start), depth, 0.25, cell, why="water and body keep their volume; a quarter of a cell is little over one percent")
+        run.check("rms speed", rms(world), 0, 0.01, "m/s", why="nothing moves, as in a pool by itself")
+
+
 @case(slow=dict(cells=1.5), fast=dict(cells=5.0))
 def water_hits_jelly(run: Run, cells: float) -> None:
     """A block of water of 8 cells hits a jelly of 12 at so many cells per step, in free space, and flows around it."""
