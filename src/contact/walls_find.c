@@ -31,6 +31,9 @@ typedef struct Bound {
 
 /* ---- The nodes that follow ---- */
 
+/* The unit matrix, as WallNode.own: all of u~ is the node's own. */
+static const float ALL[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
+
 typedef struct Builder {
     Walls *walls;
     Memory *memory;
@@ -418,13 +421,13 @@ static void set_face(WallUnilateral *u, const WallNode *node, int j, double scal
 /* The node follows none, so it meets obstacles by contacts. Its density is mirrored as elsewhere. */
 static void leave_to_contacts(WallNode *node)
 {
-    const float all[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
     node->follows = false;
     node->behind = 0.0f;
-    memcpy(node->own, all, sizeof all);
+    memcpy(node->own, ALL, sizeof ALL);
 }
 
-/* Whether a node that follows nodes with contacts has contacts, too: at obstacles that do not stick, and are no rigid bodies. These need its grip. */
+/* Whether a node that follows nodes with contacts has contacts, too. Not at walls that stick, nor at rigid bodies: both
+ * need the grip of what follows. */
 static bool may_have_contacts(const Builder *b, const Profile *profile, int count, bool sticks)
 {
     bool may = b->frame->apart && !sticks;
@@ -458,8 +461,7 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     }
     for (int k = 0; k < 6 && !found; k++) node->own[k] += rest[k];
     if (sticks) {
-        const float all[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
-        for (int k = 0; k < 6; k++) matrix[k] = (float)scale[0] * all[k];
+        for (int k = 0; k < 6; k++) matrix[k] = (float)scale[0] * ALL[k];
         for (int a = 0; a < 3; a++) node->shift[a] = (float)(1.0 - scale[0]) * profile[0].surface[a];
         memset(node->own, 0, sizeof node->own);
     }
@@ -633,10 +635,9 @@ static void give_friction(Walls *walls)
 static WallOwn kind_of_own(const float own[6], int dimension)
 {
     static const float none[6] = {0};
-    const float all[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
     const int depth = dimension == 3 ? 6 : 5; /* a plane has no motion along the third axis */
     if (memcmp(own, none, (size_t)depth * sizeof *own) == 0) return OWN_NONE;
-    return memcmp(own, all, (size_t)depth * sizeof *own) == 0 ? OWN_ALL : OWN_PART;
+    return memcmp(own, ALL, (size_t)depth * sizeof *own) == 0 ? OWN_ALL : OWN_PART;
 }
 
 /* Lists what the loops of walls_apply() need of node `i`. */

@@ -16,9 +16,10 @@
  * A body that falls into water pushes it away before they meet. They share nodes, so a gap of half a cell would stay: in 3D a cube of six cells displaced a quarter
  * more than its volume. At nodes that solids reach liquid counts as loose by what is missing there, see integrate_tensionless(). So its pressure closes gaps.
  *
- * Nodes that solids reach meet obstacles by contacts, in all parts. Other nodes at walls obey walls.h in the dual, and stay where it takes them. Nodes behind a wall that would
- * follow the former have contacts in the dual, too: where it took them by the motion of a body that the primal then held, liquid below the body flowed through the floor, and
- * pressed a quarter of what it should. Off the grid that still happens by a part.
+ * Nodes that solids reach meet obstacles by contacts, in all parts. Other nodes at walls obey walls.h in the dual, and
+ * the primal leaves them where that takes them. A node behind a wall would follow those before it. If solids reach one
+ * of those, it has contacts in the dual instead. Else the dual moved it with a body that the primal then stopped: liquid
+ * below the body flowed through the floor, and pressed a quarter of what it should. Off the grid a part of that remains.
  * Solids are as stiff as the primal holds among liquid, see joint_stiffness_share(). */
 #ifndef PBMPM_SRC_SOLVERS_JOINT_H
 #define PBMPM_SRC_SOLVERS_JOINT_H

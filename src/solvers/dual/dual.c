@@ -33,8 +33,10 @@ static bool shares_world(const World *world)
 
 /* Steps of the guess before the iterations, for liquids and sand. Without gravity any guess does harm in free flight, where no more iterations follow than it takes.
  * Before a single one it does to liquid; but sand that nothing else bears was crushed to a tenth at 60 Hz x 1, and stands with it.
- * Where a substep finds less than half of the pressure that a mode lacks, the mode grows (docs/method.md, "The guess"). Pressures where liquid meets solids differ from cell to cell,
- * which takes the first steps: with three, pools with a body in them heaved at 0.1 m/s and more. With as many as there are iterations they heave less, and with ten hardly. */
+ * Where a substep finds less than half of the pressure that a mode lacks, the mode grows: docs/method.md, "Why few
+ * steps are not enough". Pressures where liquid meets solids differ from cell to cell, which takes the first steps:
+ * with three, pools with a body in them heaved at 0.1 m/s and more. With as many as there are iterations they heave
+ * less, and with ten hardly. */
 static int guess_iterations(const World *world)
 {
     const int iterations = world->settings.iterations;
