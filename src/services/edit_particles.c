@@ -41,8 +41,10 @@ static pbmpm_result no_room(World *world, uint64_t wanted)
     const uint32_t count = wanted > UINT32_MAX ? UINT32_MAX : (uint32_t)wanted;
     const pbmpm_event event = {.kind = PBMPM_EVENT_CAPACITY, .count = count, .step = world->step_count};
     events_add(&world->events, &event);
-    return fail(PBMPM_ERROR_CAPACITY, "no room for %llu more particles: %u of %u in use, the capacity of the world's definition", (unsigned long long)wanted,
-                p->count, p->capacity);
+    const unsigned long long needed = (unsigned long long)wanted + p->count;
+    return fail(PBMPM_ERROR_CAPACITY,
+                "no room for %llu more particles: %u of %u in use; make the world with a capacity of at least %llu",
+                (unsigned long long)wanted, p->count, p->capacity, needed);
 }
 
 /* ---- Adding ---- */

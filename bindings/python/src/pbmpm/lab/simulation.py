@@ -165,7 +165,7 @@ class Simulation:
                     seed=fill.seed,
                     velocity=fill.velocity,
                 )
-            except pbmpm.InvalidArgumentError as problem:
+            except (pbmpm.InvalidArgumentError, pbmpm.CapacityError) as problem:
                 raise InputError(f"{self.scene.name}: fills[{index}]: {problem}") from problem
 
     def _add_obstacles(self) -> None:
@@ -176,7 +176,7 @@ class Simulation:
         self._bodies: dict[int, Body] = {}
         for index, part in enumerate(self.scene.colliders):
             collider = self.world.add_collider(
-                self._obstacle_shape(part.shape),
+                self._obstacle_shape(part.shape, f"colliders[{index}].shape"),
                 friction=part.friction,
                 friction_coefficient=part.friction_coefficient,
                 kinematic=part.motion is not None or part.body is not None,
@@ -191,10 +191,13 @@ class Simulation:
                 collider.teleport(position[: self.scene.dimension], rotation)
                 self._moving.append((collider, part))
 
-    def _obstacle_shape(self, part: Any) -> pbmpm.Shape:
+    def _obstacle_shape(self, part: Any, field: str) -> pbmpm.Shape:
         if part.kind not in ("mesh", "heights"):
             return shape_of(part)
-        solid = self.world.load_solid(baked_solid(part, self.scene.dimension))
+        try:
+            solid = self.world.load_solid(baked_solid(part, self.scene.dimension))
+        except InputError as problem:
+            raise InputError(f"{self.scene.name}: {field}: {problem}") from None
         return pbmpm.Baked(part.position, solid, part.rotation)
 
     @property
