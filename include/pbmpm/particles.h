@@ -45,9 +45,12 @@ PBMPM_API pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size);
 PBMPM_API pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids);
 
 /** Fills a shape (any kind but PBMPM_PLANE) with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
- *  one lattice cell. Lattice points outside the domain box are left out, and those in an obstacle that acts on the material. With a CAPACITY error nothing is added and `added`
- *  says how many the shape needs. `added` may be null. Errors: INVALID_ID; INVALID_ARGUMENT, also where no lattice point is left, or more than 2^30 are
- *  around the shape in the domain; CAPACITY, BUSY; OUT_OF_MEMORY (as above). */
+ *  one lattice cell. Lattice points outside the domain box are left out, and those in an obstacle that acts on the material.
+ *  Particles that are there already do not count: two fills of one place overlap (PBMPM_ADVICE_OVERLAPS).
+ *  pbmpm_particles_remove_in() makes room; a collider that is there while you fill leaves its place out.
+ *  With a CAPACITY error nothing is added and `added` says how many the shape needs. `added` may be null.
+ *  Errors: INVALID_ID; INVALID_ARGUMENT, also where no lattice point is left, or more than 2^30 are around the shape in the
+ *  domain; CAPACITY, BUSY; OUT_OF_MEMORY (as above). */
 PBMPM_API pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, const pbmpm_shape *shape, uint32_t *added);
 
 /** Removes particles by identifier. An unknown one: INVALID_ID and nothing is removed. */

@@ -185,6 +185,24 @@ def test_fill_counts(world: pbmpm.World, water: pbmpm.Material) -> None:
     assert np.abs(world.positions.array() - 1).max() <= 0.2 + 1e-6
 
 
+def test_a_collider_leaves_a_place_out_of_a_fill(world: pbmpm.World, water: pbmpm.Material) -> None:
+    """What is there already does not. On a lattice without jitter the fill has a hole of exactly the body's places."""
+    d = world.dimension
+    pool, body = pbmpm.Box([1.0] * d, [0.3] * d), pbmpm.Box([1.0] * d, [0.1] * d)
+    jelly = world.add_material(pbmpm.Elastic())
+    in_body = world.fill(body, jelly, jitter=0)
+    assert world.fill(pool, water, jitter=0) == 12**d
+    assert pbmpm.AdviceCode.OVERLAPS in {item.code for item in world.advice(1 / 60)}
+    world.remove(world.ids.copy())
+    hole = world.add_collider(body)
+    assert world.fill(pool, water, jitter=0) == 12**d - in_body
+    hole.destroy()
+    assert world.fill(body, jelly, jitter=0) == in_body
+    assert world.remove_in(body) == in_body
+    assert world.fill(body, jelly, jitter=0) == in_body
+    assert pbmpm.AdviceCode.OVERLAPS not in {item.code for item in world.advice(1 / 60)}
+
+
 def test_equal_seeds_fill_equally(world: pbmpm.World, water: pbmpm.Material) -> None:
     hashes = []
     for seed in (9, 9, 10):

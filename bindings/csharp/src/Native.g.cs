@@ -2199,9 +2199,12 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
 
         /// <summary>Fills a shape (any kind but PBMPM_PLANE) with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
-        /// one lattice cell. Lattice points outside the domain box are left out, and those in an obstacle that acts on the material. With a CAPACITY error nothing is added and `added`
-        /// says how many the shape needs. `added` may be null. Errors: INVALID_ID; INVALID_ARGUMENT, also where no lattice point is left, or more than 2^30 are
-        /// around the shape in the domain; CAPACITY, BUSY; OUT_OF_MEMORY (as above).</summary>
+        /// one lattice cell. Lattice points outside the domain box are left out, and those in an obstacle that acts on the material.
+        /// Particles that are there already do not count: two fills of one place overlap (PBMPM_ADVICE_OVERLAPS).
+        /// pbmpm_particles_remove_in() makes room; a collider that is there while you fill leaves its place out.
+        /// With a CAPACITY error nothing is added and `added` says how many the shape needs. `added` may be null.
+        /// Errors: INVALID_ID; INVALID_ARGUMENT, also where no lattice point is left, or more than 2^30 are around the shape in the
+        /// domain; CAPACITY, BUSY; OUT_OF_MEMORY (as above).</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_fill(WorldId world, FillDef* def, Shape* shape, uint* added);
 

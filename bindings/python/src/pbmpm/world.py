@@ -313,6 +313,9 @@ class World(
     ) -> int:
         """Fills a shape (not a plane) with particles on a jittered lattice.
 
+        Particles that are there already do not count: two fills of one place overlap, of which `advice()` warns. To make
+        room first, call `remove_in(shape)`. To leave a place out, put a collider there while you fill, and destroy it.
+
         Args:
             shape: what to fill; lattice points outside the domain or in an obstacle are left out.
             material: of the particles.
