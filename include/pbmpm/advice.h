@@ -19,7 +19,7 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_POOL_TOO_DEEP = 4,    /**< a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2, dt the substep's; with the paper's solver
                                             the strain at the bottom */
     PBMPM_ADVICE_POOL_STIRS = 5,       /**< a pool does not come to rest. Foreseen with the dual solver: figure the rms speed [m/s] that such pools have, within a factor of three.
-                                            Or came true: liquid alone that nothing drives moves so five seconds after its first step. A wave of half a cell is faster */
+                                            Or came true: liquid that nothing drives moves so five seconds after its first step. A wave of half a cell is faster */
     PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
     PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed, comes to rest too flat, or runs too fast or too slowly; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
                                             with the dual solver and beside liquid; else its mean strain. Crushed where it lands, too flat, or running through a hole: its
@@ -34,7 +34,7 @@ typedef enum pbmpm_advice_code {
                                             meet. Figure: [cells per substep] */
     PBMPM_ADVICE_OVERLAPS = 17,        /**< before the first step: matter was put where there is other matter. Figure: share of the material that lies in
                                             overfull places; for liquids, of all liquids together */
-    PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */
+    PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what no setting mends, or only a part of it that `change` names; the text says what. No figure */
     PBMPM_ADVICE_NO_FRICTION = 19,     /**< sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient. Or a liquid
                                             with kinematic_viscosity among walls none of which holds it, or a rigid body on such a floor. Figure: 0 */
     PBMPM_ADVICE_EMITTER_OUTSIDE = 20, /**< an emitter stands wholly beyond a wall of the domain, so it emits nothing. Figure: how far beyond [cells] */

@@ -18,13 +18,6 @@ static bool sinks(const World *world, const pbmpm_material_def *body)
     return false;
 }
 
-static bool floats(const World *world, const pbmpm_material_def *body)
-{
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (adviser_present(world, slot) && adviser_flows(&world->materials.def[slot]) && world->materials.def[slot].density > body->density) return true;
-    return false;
-}
-
 /* A column runs out by 1.2 times its height over its width, in widths (G. Lube, H. Huppert, S. Sparks, M. Freundt, "Collapses of two-dimensional granular columns", Phys.
  * Rev. E 72, 2005); where it falls both ways, half its width counts. Beyond its width it is far (tests/field/run.py column tilted_tray --settings 60x5,240x5: 0.06 of the
  * volume is lost with 1.2 widths, 0.03 with 0.6). */
@@ -52,6 +45,21 @@ static void limits_of_edges(Adviser *adviser, uint32_t slot)
     tell_limit(adviser, slot, "a body's weight lies beyond its edge by less than the grid resolves: it tips too slowly, or stands");
 }
 
+/* Around a body that fell in, all the water of a narrow glass may heave at 60 Hz x 5. Ten iterations calm it, or half the
+ * time step (docs/limits.md). Why: docs/method.md, "Why few steps are not enough". */
+static void limit_of_what_fell_in(Adviser *adviser, uint32_t slot)
+{
+    static const double CALM = 10.0;    /* iterations: see above */
+    static const double ROUNDED = 1e-6; /* share of a time step, which is given in single precision */
+    const double iterations = adviser->world->settings.iterations, shorter = 0.5 / REFERENCE_RATE;
+    const bool heaves = iterations < CALM && adviser->substep.dt > (1.0 + ROUNDED) * shorter;
+    pbmpm_advice advice = {.code = PBMPM_ADVICE_KNOWN_LIMIT, .material = adviser_id_of(adviser->world, slot),
+                           .text = heaves ? "where a body fell into a liquid, the liquid goes on moving by centimetres per second, or heaves"
+                                          : "where a body fell into a liquid, the liquid goes on moving by centimetres per second"};
+    if (heaves) adviser_by_iterations(adviser, CALM / iterations, &advice);
+    adviser_give(adviser, advice);
+}
+
 /* Motion is one per node: what lies between two of them moves with both. */
 static void limits_of_bodies(Adviser *adviser, uint32_t slot)
 {
@@ -66,12 +74,12 @@ static void limits_of_bodies(Adviser *adviser, uint32_t slot)
                                                                              : "a body as stiff as this that falls on sand springs back, or stops a cell or two above it");
     if (heap->hangs) tell_limit(adviser, slot, "a body that nothing bears hangs on the one above it: less than two cells apart they share nodes, and do not part");
     /* A body of ten cells and 800 kg/m^3 with a film on 11 of 12 columns floats deeper by 0.06 of its height, with one on 6 of 13 by 0.01; lighter ones have one on 0 or 1 (tests/field/run.py floats). */
-    if (heap->film > 0.5 && floats(world, def)) tell_limit(adviser, slot, "a film of liquid stays on a floating body, which floats deeper by the film's weight");
+    if (heap->film > 0.5 && adviser_floats(world, def)) tell_limit(adviser, slot, "a film of liquid stays on a floating body, which floats deeper by the film's weight");
     if (wet && heap->narrow > 0.5) tell_limit(adviser, slot, "a body with less than five cells to the walls on both sides hangs in a liquid");
     /* A jelly of 5e4 or 2e5 Pa and ten cells that is put afloat has the strain of hydrostatics, at 60 and 240 Hz; one that fell by 1 to 12 cells two to four times that. */
     if (wet && loose && heap->drop_least > FALLS_IN) tell_limit(adviser, slot, "a body that fell into a liquid stays more strained than one that was put there afloat");
-    if (sinks(world, def)) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above the floor, and slides; the level may be off");
-    if (wet && falls) tell_limit(adviser, slot, "where a body fell into a liquid, the liquid goes on moving by centimetres per second, or heaves: ten iterations or two substeps calm it");
+    if (sinks(world, def) && !heap->lies) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above the floor, and slides; the level may be off");
+    if (wet && falls) limit_of_what_fell_in(adviser, slot);
 }
 
 void advise_known_limits(Adviser *adviser)

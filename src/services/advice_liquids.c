@@ -90,10 +90,21 @@ void advise_pool_stirs(Adviser *adviser)
     }
 }
 
-/* Whether something else than gravity moves liquid: what floats in it rocks for long. */
-static bool is_driven(const World *world)
+/* Whether a body may drive liquid. What floats rocks for long, and is slow while it turns. What is heavier does not swing:
+ * it drives as it moves. */
+static bool body_drives(const Adviser *adviser, uint32_t slot)
 {
-    bool driven = is_drained(world) || adviser_any_present(world, PBMPM_ELASTIC) || adviser_any_present(world, PBMPM_SAND) || adviser_any_present(world, PBMPM_VISCO);
+    const pbmpm_material_def *def = &adviser->world->materials.def[slot];
+    return adviser_present(adviser->world, slot) && !adviser_flows(def) &&
+           (def->kind == PBMPM_SAND || adviser->survey.heap[slot].moves > CALM_SPEED || adviser_floats(adviser->world, def));
+}
+
+/* Whether something else than gravity moves liquid. */
+static bool is_driven(const Adviser *adviser)
+{
+    const World *world = adviser->world;
+    bool driven = is_drained(world);
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) driven = driven || body_drives(adviser, slot);
     for (uint32_t e = 0; e < world->emitters.used; e++) driven = driven || (world->emitters.slot[e].generation != 0 && world->emitters.slot[e].def.enabled);
     for (uint32_t i = 0; i < world->forces.used; i++) driven = driven || (world->forces.slot[i].generation != 0 && world->forces.slot[i].def.enabled);
     for (uint32_t c = 0; c < world->colliders.used; c++) driven = driven || (world_feels(world, &world->colliders.slot[c]) && world->colliders.slot[c].def.kinematic);
@@ -119,7 +130,7 @@ void advise_pool_moves(Adviser *adviser)
     static const double SETTLES = 5.0; /* [s] see above */
     const World *world = adviser->world;
     const double age = (double)world->step_count * world->settings.substeps * adviser->substep.dt;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && age >= SETTLES && !is_driven(world); slot++) {
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && age >= SETTLES && !is_driven(adviser); slot++) {
         const double moves = adviser->survey.heap[slot].moves;
         if (!adviser_flows(&world->materials.def[slot]) || moves <= CALM_SPEED || moves >= unseen_wave(adviser, slot)) continue;
         if (adviser->survey.heap[slot].uneven > LEVEL) continue;

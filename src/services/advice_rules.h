@@ -35,7 +35,8 @@ void advise_pool_stirs(Adviser *adviser);
 void advise_pool_moves(Adviser *adviser);
 void advise_ball_stirs(Adviser *adviser);
 
-/* advice_solids.c: bodies */
+/* advice_solids.c: bodies. Whether the iterations hold enough of a solid's modulus. */
+bool advice_holds_modulus(const Adviser *adviser, uint32_t slot);
 void advise_modulus_not_held(Adviser *adviser);
 void advise_body_too_thin(Adviser *adviser);
 void advise_bounce_damped(Adviser *adviser);

@@ -142,19 +142,44 @@ void advise_collider_too_thin(Adviser *adviser)
 
 /* ---- Speed ---- */
 
+/* Whether what is so fast [m/s] has nothing below it that stops it, and no kill bounds. */
+static bool falls_without_end(const Adviser *adviser, double speed)
+{
+    enum { LOOKS = 64 }; /* so many lines down */
+    const World *world = adviser->world;
+    const Particles *p = &world->particles;
+    int looks = 0;
+    if (world->sinks.bounds.enabled || gravity_strength(world) == 0.0 || adviser_wall_below(world)) return false;
+    for (uint32_t row = 0; row < p->count && looks < LOOKS; row++) {
+        double at[3] = {0}, speed2 = 0.0;
+        for (int a = 0; a < p->dimension; a++) speed2 += (double)p->velocity[a][row] * (double)p->velocity[a][row];
+        if (speed2 < speed * speed) continue;
+        for (int a = 0; a < p->dimension; a++) at[a] = particles_coordinate(p, row, a) * (double)world->def.cell_size;
+        if (adviser_lands(world, p->material[row], at)) return false;
+        looks++;
+    }
+    return looks > 0;
+}
+
 void advise_step_too_long(Adviser *adviser)
 {
     const World *world = adviser->world;
     const double bound = (double)world->settings.max_displacement;
-    double speed = 0.0;
+    const double slowed = 0.99 * bound / adviser_cells(adviser, 1.0); /* [m/s] who was slowed to the bound is at it */
+    double speed = 0.0, jet = 0.0;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) speed = fmax(speed, adviser->survey.heap[slot].speed);
     for (uint32_t e = 0; e < world->emitters.used; e++)
-        if (world->emitters.slot[e].generation != 0) speed = fmax(speed, (double)world->emitters.slot[e].def.speed);
-    const double cells = speed * adviser->substep.dt / (double)world->def.cell_size;
-    if (cells < 0.99 * bound) return; /* who was slowed to it is at it */
+        if (world->emitters.slot[e].generation != 0) jet = fmax(jet, (double)world->emitters.slot[e].def.speed);
+    const double cells = adviser_cells(adviser, fmax(speed, jet));
+    if (cells < 0.99 * bound) return;
     pbmpm_advice advice = {.code = PBMPM_ADVICE_STEP_TOO_LONG, .figure = (float)fmax(cells, bound), .bound = (float)bound,
                            .text = "matter is faster than max_displacement allows: it is slowed"};
-    adviser_by_substeps(adviser, fmax(2.0, cells / bound), &advice);
+    if (jet < slowed && falls_without_end(adviser, slowed)) {
+        advice.text = "matter falls for ever, by now as fast as max_displacement allows";
+        adviser_by_value(PBMPM_CHANGE_KILL_BOUNDS, 0.0, 0.0, &advice);
+    } else {
+        adviser_by_substeps(adviser, fmax(2.0, cells / bound), &advice);
+    }
     adviser_give(adviser, advice);
 }
 
@@ -253,6 +278,15 @@ void advise_emitter_refused(Adviser *adviser)
 
 /* ---- What came true ---- */
 
+/* What an elastic body's strain says that it lacks: 1 - mean det F. If the iterations hold its modulus, that bears what
+ * presses it, by its weight or by a plate, and no more substeps bear it better. Cells are filled by 1 / det F then, and
+ * their mean over equal rooms is 1 / mean det F. */
+static double lost_to_strain(const Adviser *adviser, uint32_t slot)
+{
+    const bool elastic = adviser->world->materials.def[slot].kind == PBMPM_ELASTIC;
+    return elastic && advice_holds_modulus(adviser, slot) ? fmax(0.0, 1.0 - adviser->survey.heap[slot].kept) : 0.0;
+}
+
 /* What a solid's own modulus lets its weight take of its volume. */
 static double lost_to_weight(const Adviser *adviser, uint32_t slot)
 {
@@ -273,7 +307,7 @@ void advise_volume_lost(Adviser *adviser)
         if (filling == 0.0 || world->step_count == 0) continue;
         const double sure = filling - SURE * adviser->survey.heap[slot].filling_error;
         if (sure <= 1.0) continue;
-        const double lost = 1.0 - 1.0 / sure - lost_to_weight(adviser, slot);
+        const double lost = 1.0 - 1.0 / sure - fmax(lost_to_weight(adviser, slot), lost_to_strain(adviser, slot));
         if (lost <= UNSEEN) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_VOLUME_LOST, .material = adviser_id_of(world, slot), .figure = (float)lost, .bound = (float)UNSEEN, .came_true = 1,
                                .text = "matter takes less room than it should, by this share: it is crushed"};

@@ -6,10 +6,15 @@
 #include "solvers/passes.h"
 #include "world/depth.h"
 
+bool advice_holds_modulus(const Adviser *adviser, uint32_t slot)
+{
+    static const double ENOUGH = 0.8;            /* share of a modulus: a body that is softer by a fifth looks as it should */
+    return (double)adviser_held_of(adviser, slot).young_modulus >= ENOUGH * (double)adviser->world->materials.def[slot].young_modulus;
+}
+
 /* N iterations hold a stiffness that grows with N^2 and with 1/dt^2. A softer body looks the same at any rate and costs nothing. */
 void advise_modulus_not_held(Adviser *adviser)
 {
-    static const double ENOUGH = 0.8;            /* share of a modulus: a body that is softer by a fifth looks as it should */
     static const double MOST_ITERATIONS = 100.0; /* what takes more is dearer than smaller cells */
     const World *world = adviser->world;
     if (world->settings.solver == PBMPM_SOLVER_PAPER) return; /* it has none, which ignored_of_solid() tells */
@@ -17,7 +22,7 @@ void advise_modulus_not_held(Adviser *adviser)
         const pbmpm_material_def *def = &world->materials.def[slot];
         if (!adviser_present(world, slot) || adviser_flows(def) || def->kind == PBMPM_SAND) continue;
         const double held = (double)adviser_held_of(adviser, slot).young_modulus, own = (double)def->young_modulus;
-        if (held >= ENOUGH * own) continue;
+        if (advice_holds_modulus(adviser, slot)) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_MODULUS_NOT_HELD, .material = adviser_id_of(world, slot), .figure = (float)held, .bound = (float)own,
                                .text = "the iterations do not hold the modulus: the body is softer than its material"};
         const double factor = sqrt(own / held);

@@ -80,6 +80,13 @@ bool adviser_any_present(const World *world, pbmpm_material_kind kind)
     return false;
 }
 
+bool adviser_floats(const World *world, const pbmpm_material_def *body)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (adviser_present(world, slot) && adviser_flows(&world->materials.def[slot]) && world->materials.def[slot].density > body->density) return true;
+    return false;
+}
+
 /* Which solver bears the weight of matter of this material. The convergent one is chosen where matter touches: a liquid that solids touch may have the other
  * one, and what that holds says adviser_held_of(). Sand beside liquid is the dual's. By itself it rests with the primal: it keeps its volume in bins of 15 to 64 cells at
  * 60 Hz x 5, even where it runs out of them, while the dual has it (tests/field/run.py bin silo weight_of_sand). */

@@ -34,6 +34,9 @@ bool adviser_any_present(const World *world, pbmpm_material_kind kind);
 
 static inline bool adviser_flows(const pbmpm_material_def *def) { return def->kind == PBMPM_LIQUID; }
 
+/* Whether any liquid is denser than a body. */
+bool adviser_floats(const World *world, const pbmpm_material_def *body);
+
 /* Which solver bears the weight of a material; whether one may have it, or any matter. */
 pbmpm_solver adviser_solver_of(const World *world, uint32_t slot);
 bool adviser_may_solve(const World *world, uint32_t slot, pbmpm_solver solver);

@@ -113,6 +113,16 @@ static void stretches(const Particles *p, uint32_t row, double *least, double *m
     *most = sqrt(fmax(high, 0.0));
 }
 
+static double volume_of(const Particles *p, uint32_t row)
+{
+    double f[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const int d = p->dimension;
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < d; j++) f[i][j] = (double)p->deformation[i * 3 + j][row];
+    return f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1]) - f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0]) +
+           f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
+}
+
 /* Strain is cut off at the bounds once per substep, and a little moves it away again. */
 static bool is_clamped(const World *world, uint32_t row)
 {
@@ -132,13 +142,16 @@ static void look_at_particles(const World *world, Survey *survey)
         heap->particles++;
         heap->moves += speed2;
         heap->speed = fmax(heap->speed, sqrt(speed2));
-        if (material_is_solid(&world->materials, p->material[row]) && is_clamped(world, row)) heap->clamped += 1.0;
+        if (!material_is_solid(&world->materials, p->material[row])) continue;
+        heap->kept += volume_of(p, row);
+        if (is_clamped(world, row)) heap->clamped += 1.0;
     }
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         Heap *heap = &survey->heap[slot];
         if (heap->particles == 0) continue;
         heap->moves = sqrt(heap->moves / heap->particles);
         heap->clamped /= heap->particles;
+        heap->kept /= heap->particles;
     }
 }
 
@@ -203,6 +216,7 @@ static void look_below(const World *world, Cells *cells, int down, bool floats, 
         } else {
             heap->hangs = survey_hangs(world, cells, down, slot);
             if (floats) survey_film(world, cells, down, slot, heap);
+            heap->lies = floats && survey_lies(world, cells, down, slot);
         }
     }
 }

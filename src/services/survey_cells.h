@@ -18,6 +18,7 @@ typedef struct Share {
     uint32_t body;    /* an earlier share of the same body, or itself */
     bool held;        /* an obstacle is where it ends, or other matter below */
     bool borne;       /* of a body's first share: something below bears the body */
+    bool lies;        /* of a body's first share: the body lies on an obstacle */
 } Share;
 
 /* Of places; and how many places of a kind a survey looks at, about. */

@@ -148,6 +148,31 @@ bool survey_hangs(const World *world, Cells *cells, int axis, uint32_t slot)
     return false;
 }
 
+/* Cells of free way down from a body's surface, which is half a spacing beyond its last particles, to an obstacle. */
+static double gap_below(const World *world, const Share *share, int axis, int down)
+{
+    enum { FAR = 2 };
+    const double beyond = 0.5 * share->spacing + (double)(down > 0 ? share->high[axis] : -share->low[axis]); /* of the middle */
+    double along[3] = {0};
+    along[axis] = down;
+    return survey_cells_to_obstacle(world, share, along, FAR) - beyond;
+}
+
+bool survey_lies(const World *world, Cells *cells, int axis, uint32_t slot)
+{
+    static const double LIES = 0.5; /* [cells] halfway between what lies and what stops a cell above the floor */
+    const int down = world->settings.gravity[axis] > 0.0f ? 1 : -1;
+    bool all = true;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        if (cells->share[i].group != slot + 1) continue;
+        Share *first = &cells->share[survey_body_of(cells, i)];
+        if (!first->lies && body_ends(cells, i, axis, down)) first->lies = gap_below(world, &cells->share[i], axis, down) < LIES;
+    }
+    for (uint32_t i = 0; i < cells->count && all; i++)
+        all = cells->share[i].group != slot + 1 || cells->share[survey_body_of(cells, i)].lies;
+    return all;
+}
+
 void survey_film(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
     const int up = world->settings.gravity[axis] > 0.0f ? -1 : 1;

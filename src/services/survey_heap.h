@@ -18,6 +18,7 @@ typedef struct Heap {
     double uneven;     /* how far its surface is from level, root mean square over columns of three cells and more; of all liquids together; 0 for solids */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
     double filling_error; /* standard error of that mean */
+    double kept;       /* mean det F: the share of its rest volume that its strain says it takes; solids */
     double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter; before the first step */
     bool round;        /* whether most of it is in bodies that are as round as a ball, a disc or a short cylinder; solids */
     double lever;      /* the least [cells] by which the weight of a body lies beyond all that holds it; 0: of none does, or nothing holds it; elastic, not round */
@@ -28,6 +29,7 @@ typedef struct Heap {
     double hole;       /* width [cells] of where it would fall farther than elsewhere by four cells at least; in 3D that of a square; solids */
     bool hangs;        /* whether nothing within two cells bears a body from below, and another one is less than two cells above it; solids but sand */
     double film;       /* share of its upper side with a film of liquid on it, under air; solids */
+    bool lies;         /* whether each of its bodies lies on an obstacle; solids beside liquid */
     bool on_matter;    /* whether it stands on other matter, or falls onto it, anywhere; solids */
     double narrow;     /* share of a solid, among liquid, with obstacles less than five cells away on both sides along each axis across gravity */
     double clamped;    /* share of particles that are strained to a bound; solids */

@@ -27,6 +27,9 @@ void survey_drops(const World *world, Cells *cells, int axis, uint32_t slot, Hea
 /* Whether nothing bears one of a solid's bodies, and another body is close above it. Sorted by cell, bodies are found. */
 bool survey_hangs(const World *world, Cells *cells, int axis, uint32_t slot);
 
+/* Whether each of a solid's bodies lies on an obstacle. Sorted by cell, bodies are found. */
+bool survey_lies(const World *world, Cells *cells, int axis, uint32_t slot);
+
 /* The share of a solid's upper side with liquid in its own cell or the one above, and no matter in the two above these. Sorted by cell. */
 void survey_film(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap);
 

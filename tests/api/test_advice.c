@@ -274,7 +274,11 @@ static void test_a_step_that_is_too_long(void)
     fill_shape(world, water, box_shape(0, 0, 0, 0.3f, 0.3f, 0.3f), (const float[3]){100, 0, 0});
     expect_none(world, PBMPM_ADVICE_STEP_TOO_LONG);
     fill_shape(world, water, box_shape(0, 1, 0, 0.3f, 0.3f, 0.3f), (const float[3]){300, 0, 0});
-    TEST_ASSERT_FLOAT_WITHIN(0.1f, 50.0f, expect(world, PBMPM_ADVICE_STEP_TOO_LONG)->figure);
+    const pbmpm_advice *advice = expect(world, PBMPM_ADVICE_STEP_TOO_LONG);
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 50.0f, advice->figure);
+    TEST_ASSERT_EQUAL_INT(PBMPM_CHANGE_KILL_BOUNDS, advice->change); /* nothing is below */
+    create_collider(world, box_shape(0, -50, 0, 1, 0.5f, 1), false);
+    TEST_ASSERT_EQUAL_INT(PBMPM_CHANGE_SUBSTEPS, expect(world, PBMPM_ADVICE_STEP_TOO_LONG)->change);
 }
 
 /* Water and a jelly that meet at 1.5 and at 2.5 cells per substep; not sand, nor what passes by or is farther than four cells. */

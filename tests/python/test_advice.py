@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from test_scene_run import pbmpm_command
 
@@ -246,3 +247,96 @@ def test_a_longer_run_looks_at_the_same_times(monkeypatch: pytest.MonkeyPatch) -
         run_scene(parse_scene(SCENE), RunSettings(60.0, 1, 3, 1), seconds, OutputOptions())
     short, long = looks
     assert len(short) >= 4 and set(short[:-1]) <= set(long) and long[-1] == pytest.approx(1.0)
+
+
+def given(world: pbmpm.World, code: AdviceCode) -> list[pbmpm.Advice]:
+    return [item for item in world.advice(1 / 60) if item.code is code]
+
+
+def test_a_jelly_that_a_plate_presses_has_lost_nothing(dimension: int) -> None:
+    """By three tenths, in a box that it fills: its strain says so. A jelly that was filled twice has no strain that says so, and is crushed."""
+    d = dimension
+    size = [1.0, 1.0, 0.4][:d]
+    with pbmpm.World(d, 0.05, gravity=[0, -9.81, 0][:d], domain=([0.0] * d, size), domain_friction=0, threads=1) as world:
+        jelly = world.add_material(pbmpm.Elastic(young_modulus=5e4))
+        world.fill(pbmpm.Box([0.5, 0.25, 0.2][:d], [0.5, 0.25, 0.2][:d]), jelly)
+        plate = world.add_collider(pbmpm.Box([0.5, 0.7, 0.2][:d], [0.5, 0.2, 0.3][:d]), kinematic=True)
+        for step in range(75):
+            plate.move([0.5, 0.7 - 0.15 * min(1, (step + 1) / 60), 0.2][:d])
+            world.step(1 / 60)
+        assert not given(world, AdviceCode.VOLUME_LOST)
+        plate.destroy()
+        world.remove(world.ids.copy())
+        for _ in range(2):
+            world.fill(pbmpm.Box([0.5, 0.25, 0.2][:d], [0.5, 0.25, 0.2][:d]), jelly)
+        world.step(1e-4)
+        assert given(world, AdviceCode.VOLUME_LOST)[0].figure > 0.3  # half, less the eighth that its weight may take
+
+
+@pytest.mark.parametrize(("below", "bounded", "change"), [(False, False, Change.KILL_BOUNDS), (True, False, Change.SUBSTEPS), (False, True, Change.SUBSTEPS)])
+def test_a_drop_that_falls_for_ever_wants_kill_bounds(below: bool, bounded: bool, change: Change) -> None:
+    """It missed its floor, and is as fast as max_displacement lets it be. With a floor far below, or kill bounds, no more of these help."""
+    with pbmpm.World(2, 0.05, gravity=(0, -9.81), threads=1) as world:
+        world.add_collider(pbmpm.Box((0, -0.1), (0.5, 0.1)))
+        if below:
+            world.add_collider(pbmpm.Box((0, -50), (5, 0.1)))
+        if bounded:
+            world.kill_bounds = ((-9, -99), (9, 9))
+        water = world.add_material(pbmpm.Liquid())
+        world.fill(pbmpm.Box((0, 0.1), (0.4, 0.1)), water)
+        world.fill(pbmpm.Sphere((0.8, 0.1), 0.04), water, velocity=(0, -200))
+        (item,) = given(world, AdviceCode.STEP_TOO_LONG)
+        assert item.change is change
+        assert ("falls for ever" in item.text) is (change is Change.KILL_BOUNDS)
+        assert not given(world, AdviceCode.FALLS_FOREVER)
+
+
+@pytest.mark.parametrize(("heights", "told"), [([0.0], False), ([1.0], True), ([12.0], True), ([0.0, 1.0], True)])
+def test_a_body_that_lies_on_the_floor_does_not_stop_above_it(dimension: int, heights: list[float], told: bool) -> None:
+    """Heavy bodies in water, so many cells above the floor: of several, one that does not lie is enough."""
+    d, cell = dimension, 0.05
+    with pbmpm.World(d, cell, gravity=[0, -9.81, 0][:d], domain=([0.0] * d, [1.6, 2.0, 0.8][:d]), threads=1) as world:
+        water, heavy = world.add_material(pbmpm.Liquid()), world.add_material(pbmpm.Elastic(density=1500))
+        bodies = [pbmpm.Box([0.4 + 0.8 * i, 0.2 + height * cell, 0.4][:d], [0.2] * d) for i, height in enumerate(heights)]
+        holes = [world.add_collider(body) for body in bodies]
+        world.fill(pbmpm.Box([0.8, 0.25, 0.4][:d], [0.8, 0.25, 0.4][:d]), water)
+        for hole, body in zip(holes, bodies, strict=True):
+            hole.destroy()
+            world.fill(body, heavy)
+        assert any("stops a cell above the floor" in item.text for item in world.advice(1 / 60)) is told
+
+
+@pytest.mark.parametrize("rocks", [False, True])
+def test_a_pool_that_stirs_around_a_body_at_rest(rocks: bool) -> None:
+    """The water circles at 0.03 m/s in a level pool. A heavy block that lies still drives none of that; one that moves may."""
+    cell, width, depth = 0.05, 1.6, 0.6
+    with pbmpm.World(2, cell, gravity=(0, -9.81), domain=((0, 0), (width, 2 * depth)), threads=1) as world:
+        water, heavy = world.add_material(pbmpm.Liquid()), world.add_material(pbmpm.Elastic(density=2000, young_modulus=1e6))
+        places = np.stack(np.meshgrid(*(np.arange(cell / 4, size, cell / 2) for size in (width, depth)), indexing="ij"), -1).reshape(-1, 2)
+        inside = (abs(places - (width / 2, 0.2)) < 0.2).all(1)
+        world.add_particles(heavy, places[inside])
+        world.add_particles(water, places[~inside])
+        for _ in range(300):
+            world.step(1 / 60)
+        wet = world.material_indices.array().ravel() == water.index
+        x, y = np.pi * world.positions.array().T / [[width], [depth]]
+        stream = 0.04 * np.stack([np.sin(x) * np.cos(y), -np.cos(x) * np.sin(y)], -1)
+        world.velocities = np.where(wet[:, None], stream, 0.02 if rocks else 0.0)
+        assert any(item.came_true for item in given(world, AdviceCode.POOL_STIRS)) is not rocks
+
+
+def test_the_cure_of_a_pool_that_heaves_has_a_price() -> None:
+    """Where a body fell in, ten iterations calm it, or half the time step: then nothing is said to heave."""
+    with pbmpm.World(2, 0.05, gravity=(0, -9.81), domain=((0, 0), (1, 2)), threads=1) as world:
+        world.fill(pbmpm.Box((0.5, 0.3), (0.5, 0.3)), world.add_material(pbmpm.Liquid()))
+        world.fill(pbmpm.Box((0.5, 1.0), (0.2, 0.2)), world.add_material(pbmpm.Elastic(density=500)))
+
+        def said() -> pbmpm.Advice:
+            return next(item for item in world.advice(1 / 60) if "goes on moving" in item.text)
+
+        assert "heaves" in said().text and said().change is Change.ITERATIONS and said().value == 10 and said().price
+        for setting, value in (("iterations", 10), ("substeps", 2)):
+            old = getattr(world, setting)
+            setattr(world, setting, value)
+            assert "heaves" not in said().text and said().change is Change.NONE
+            setattr(world, setting, old)

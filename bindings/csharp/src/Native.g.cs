@@ -278,7 +278,7 @@ namespace Pbmpm
         /// the strain at the bottom</summary>
         PoolTooDeep = 4,
         /// <summary>a pool does not come to rest. Foreseen with the dual solver: figure the rms speed [m/s] that such pools have, within a factor of three.
-        /// Or came true: liquid alone that nothing drives moves so five seconds after its first step. A wave of half a cell is faster</summary>
+        /// Or came true: liquid that nothing drives moves so five seconds after its first step. A wave of half a cell is faster</summary>
         PoolStirs = 5,
         /// <summary>the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
@@ -303,7 +303,7 @@ namespace Pbmpm
         /// <summary>before the first step: matter was put where there is other matter. Figure: share of the material that lies in
         /// overfull places; for liquids, of all liquids together</summary>
         Overlaps = 17,
-        /// <summary>what neither rate nor iterations mend; the text says what. No figure</summary>
+        /// <summary>what no setting mends, or only a part of it that `change` names; the text says what. No figure</summary>
         KnownLimit = 18,
         /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient. Or a liquid
         /// with kinematic_viscosity among walls none of which holds it, or a rigid body on such a floor. Figure: 0</summary>
