@@ -45,17 +45,18 @@ static void limits_of_edges(Adviser *adviser, uint32_t slot)
     tell_limit(adviser, slot, "a body's weight lies beyond its edge by less than the grid resolves: it tips too slowly, or stands");
 }
 
-/* Around a body that fell in, all the water of a narrow glass may heave at 60 Hz x 5. Ten iterations calm it, or half the
- * time step (docs/limits.md). Why: docs/method.md, "Why few steps are not enough". */
+/* Around a body that fell in, all the water of a narrow glass may heave at 60 Hz x 5. Ten iterations calm it, or half
+ * the time step (docs/limits.md). Why: docs/method.md, "Why few steps are not enough". */
 static void limit_of_what_fell_in(Adviser *adviser, uint32_t slot)
 {
     static const double CALM = 10.0;    /* iterations: see above */
     static const double ROUNDED = 1e-6; /* share of a time step, which is given in single precision */
     const double iterations = adviser->world->settings.iterations, shorter = 0.5 / REFERENCE_RATE;
     const bool heaves = iterations < CALM && adviser->substep.dt > (1.0 + ROUNDED) * shorter;
-    pbmpm_advice advice = {.code = PBMPM_ADVICE_KNOWN_LIMIT, .material = adviser_id_of(adviser->world, slot),
-                           .text = heaves ? "where a body fell into a liquid, the liquid goes on moving by centimetres per second, or heaves"
-                                          : "where a body fell into a liquid, the liquid goes on moving by centimetres per second"};
+    pbmpm_advice advice = {.code = PBMPM_ADVICE_KNOWN_LIMIT, .material = adviser_id_of(adviser->world, slot)};
+    advice.text = "where a body fell into a liquid, the liquid goes on moving by centimetres per second";
+    if (heaves)
+        advice.text = "where a body fell into a liquid, the liquid goes on moving by centimetres per second, or heaves";
     if (heaves) adviser_by_iterations(adviser, CALM / iterations, &advice);
     adviser_give(adviser, advice);
 }

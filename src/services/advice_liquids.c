@@ -90,13 +90,19 @@ void advise_pool_stirs(Adviser *adviser)
     }
 }
 
-/* Whether a body may drive liquid. What floats rocks for long, and is slow while it turns. What is heavier does not swing:
- * it drives as it moves. */
+/* Whether a body may drive liquid. What floats rocks for long, and is slow while it turns. What is heavier does not
+ * swing: it drives as it moves. */
 static bool body_drives(const Adviser *adviser, uint32_t slot)
 {
     const pbmpm_material_def *def = &adviser->world->materials.def[slot];
-    return adviser_present(adviser->world, slot) && !adviser_flows(def) &&
-           (def->kind == PBMPM_SAND || adviser->survey.heap[slot].moves > CALM_SPEED || adviser_floats(adviser->world, def));
+    const bool moves = adviser->survey.heap[slot].moves > CALM_SPEED;
+    if (!adviser_present(adviser->world, slot) || adviser_flows(def)) return false;
+    return moves || def->kind == PBMPM_SAND || adviser_floats(adviser->world, def);
+}
+
+static bool any_body(const World *world)
+{
+    return adviser_any_present(world, PBMPM_ELASTIC) || adviser_any_present(world, PBMPM_VISCO);
 }
 
 /* Whether something else than gravity moves liquid. */
@@ -136,7 +142,7 @@ void advise_pool_moves(Adviser *adviser)
         if (adviser->survey.heap[slot].uneven > LEVEL) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)moves, .bound = (float)CALM_SPEED, .came_true = 1,
                                .text = "the pool lies level, and its liquid moves on at this speed"};
-        adviser_by_substeps(adviser, moves / CALM_SPEED, &advice); /* by RESTS, above */
+        if (!any_body(world)) adviser_by_substeps(adviser, moves / CALM_SPEED, &advice); /* by RESTS, above; of pools alone */
         adviser_give(adviser, advice);
     }
 }

@@ -8,8 +8,9 @@
 
 bool advice_holds_modulus(const Adviser *adviser, uint32_t slot)
 {
-    static const double ENOUGH = 0.8;            /* share of a modulus: a body that is softer by a fifth looks as it should */
-    return (double)adviser_held_of(adviser, slot).young_modulus >= ENOUGH * (double)adviser->world->materials.def[slot].young_modulus;
+    static const double ENOUGH = 0.8; /* share of a modulus: a body that is softer by a fifth looks as it should */
+    const double own = (double)adviser->world->materials.def[slot].young_modulus;
+    return (double)adviser_held_of(adviser, slot).young_modulus >= ENOUGH * own;
 }
 
 /* N iterations hold a stiffness that grows with N^2 and with 1/dt^2. A softer body looks the same at any rate and costs nothing. */

@@ -152,10 +152,10 @@ bool survey_hangs(const World *world, Cells *cells, int axis, uint32_t slot)
 static double gap_below(const World *world, const Share *share, int axis, int down)
 {
     enum { FAR = 2 };
-    const double beyond = 0.5 * share->spacing + (double)(down > 0 ? share->high[axis] : -share->low[axis]); /* of the middle */
+    const double last = (double)(down > 0 ? share->high[axis] : -share->low[axis]); /* below the middle of the cell */
     double along[3] = {0};
     along[axis] = down;
-    return survey_cells_to_obstacle(world, share, along, FAR) - beyond;
+    return survey_cells_to_obstacle(world, share, along, FAR) - last - 0.5 * share->spacing;
 }
 
 bool survey_lies(const World *world, Cells *cells, int axis, uint32_t slot)
@@ -166,7 +166,8 @@ bool survey_lies(const World *world, Cells *cells, int axis, uint32_t slot)
     for (uint32_t i = 0; i < cells->count; i++) {
         if (cells->share[i].group != slot + 1) continue;
         Share *first = &cells->share[survey_body_of(cells, i)];
-        if (!first->lies && body_ends(cells, i, axis, down)) first->lies = gap_below(world, &cells->share[i], axis, down) < LIES;
+        if (first->lies || !body_ends(cells, i, axis, down)) continue;
+        first->lies = gap_below(world, &cells->share[i], axis, down) < LIES;
     }
     for (uint32_t i = 0; i < cells->count && all; i++)
         all = cells->share[i].group != slot + 1 || cells->share[survey_body_of(cells, i)].lies;

@@ -18,8 +18,9 @@
  *
  * Nodes that solids reach meet obstacles by contacts, in all parts. Other nodes at walls obey walls.h in the dual, and
  * the primal leaves them where that takes them. A node behind a wall would follow those before it. If solids reach one
- * of those, it has contacts in the dual instead. Else the dual moved it with a body that the primal then stopped: liquid
- * below the body flowed through the floor, and pressed a quarter of what it should. Off the grid a part of that remains.
+ * of those, it has contacts in the dual instead. Else the dual moved it with a body that the primal then stopped:
+ * liquid below the body flowed through the floor, and pressed a quarter of what it should. Off the grid a part of that
+ * remains.
  * Solids are as stiff as the primal holds among liquid, see joint_stiffness_share(). */
 #ifndef PBMPM_SRC_SOLVERS_JOINT_H
 #define PBMPM_SRC_SOLVERS_JOINT_H

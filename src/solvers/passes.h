@@ -10,10 +10,10 @@ bool solver_uses_dual(const World *world);
 /* Whether the dual and the primal work together in this substep, see joint.h. */
 static inline bool joint_is_chosen(const World *world) { return world->record.solver == SOLVER_JOINT; }
 
-/* Steps before the iterations: of the guess (the joint solver's takes N), and of the primal alone on solids in a liquid.
- * By trial. Three carry pressure through a pool of some 12 cells. A fourth calms two floors of tests/field (ridge_15 from
- * 24 to 2 mm/s, shelf from 16 to 2) and stirs others (ball from 14 to 21, drips from 74 to 108). It costs a tenth of a
- * step, and heaps of sand flatten by two degrees more. */
+/* Steps before the iterations: of the guess (the joint solver's takes N), and of the primal alone on solids in a
+ * liquid. By trial. Three carry pressure through a pool of some 12 cells. A fourth calms two floors of tests/field
+ * (ridge_15 from 24 to 2 mm/s, shelf from 16 to 2) and stirs others (ball from 14 to 21, drips from 74 to 108). It
+ * costs a tenth of a step, and heaps of sand flatten by two degrees more. */
 enum { LEADING_STEPS = 3 };
 
 /* Largest growth that crushed liquid is asked for: by the paper's solver without gravity, per substep; by the dual, see growth_max() in dual/dual.c. By trial. */

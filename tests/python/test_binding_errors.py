@@ -179,7 +179,8 @@ def test_a_plane_cannot_be_filled(world: pbmpm.World, water: pbmpm.Material) -> 
 
 def test_no_room(world: pbmpm.World, water: pbmpm.Material) -> None:
     box = pbmpm.Box([1.0] * world.dimension, [0.9] * world.dimension)
-    with pytest.raises(pbmpm.CapacityError, match="[0-9]{4,} more particles: 0 of 5000 in use; make the world with a capacity of at least [0-9]{4,}"):
+    said = "[0-9]{4,} more particles: 0 of 5000 in use; make the world with a capacity of at least [0-9]{4,}"
+    with pytest.raises(pbmpm.CapacityError, match=said):
         world.fill(box, water, particles_per_axis=4)
     (event,) = world.events
     assert event.kind is pbmpm.EventKind.CAPACITY and event.count > world.capacity
