@@ -9,7 +9,7 @@
 #ifdef PBMPM_SANITIZED
 enum { BEFORE = 20, AFTER = 40, AFTER_3D = 20, AGAIN = 20, COMPARED_EVERY = 20, CHANGED_EVERY = 17 };
 #else
-enum { BEFORE = 20, AFTER = 200, AFTER_3D = 40, AGAIN = 40, COMPARED_EVERY = 20, CHANGED_EVERY = 1 };
+enum { BEFORE = 20, AFTER = 60, AFTER_3D = 20, AGAIN = 20, COMPARED_EVERY = 20, CHANGED_EVERY = 1 };
 #endif
 
 /* A snapshot in memory of exactly its size. */

@@ -142,6 +142,7 @@ def test_parameters_and_snapshots_survive(material: pbmpm.Sand | pbmpm.Visco) ->
     other.close()
 
 
+@pytest.mark.long
 def test_the_column_collapses_as_in_experiments() -> None:
     (case,) = find_cases(["granular-column"])
     setting = case.sweep(quick=True)[0]
@@ -152,6 +153,7 @@ def test_the_column_collapses_as_in_experiments() -> None:
     assert case.solve(setting).observed == measured.observed  # of the run in 2D alone
 
 
+@pytest.mark.long
 def test_a_column_slumps_as_theory_says() -> None:
     (case,) = find_cases(["slump"])
     (setting,) = case.sweep(quick=True)

@@ -36,6 +36,8 @@ def _all_settings() -> Iterator[Any]:
         for setting in case.settings(solver=solver):
             reason = case.known_failure(setting)
             marks = [pytest.mark.xfail(reason=reason, strict=True, raises=AssertionError)] if reason else []
+            if setting.dimension == 3:
+                marks.append(pytest.mark.long)
             yield pytest.param(case, setting, id=f"{case.id}: {setting}", marks=marks)
 
 
@@ -271,6 +273,7 @@ def test_a_light_block_that_bears_the_heavy_one_is_judged_by_the_height(solver: 
     assert all(check.passed for check in checks), checks
 
 
+@pytest.mark.long
 def test_stiff_liquid_of_the_paper_forgets_that_it_was_crushed() -> None:
     """J of 0.9 passed for noise where the grid showed gaps. There it pressed with all that is allowed, and so did all below: 0.90 came back."""
     checks = find_case("H03").function(Setting("liquid", 3, "plain", 480, 20, solver="paper"))

@@ -169,6 +169,7 @@ def late_speed_in_a_glass(density: float, young_modulus: float, place: float) ->
         return float(np.sqrt(np.mean(squares)))
 
 
+@pytest.mark.long
 def test_a_jelly_in_a_glass_comes_to_rest() -> None:
     """After the fall nothing drives it, but water of 18 cells is deep for 60 Hz: alone it goes on at 0.01 to 0.025 m/s. The heaviest jelly lies on the floor, crushed to two
     thirds of its volume. How a start goes on depends on the last bit: single ones have 0.004 to 0.052 m/s, 24 of them 0.020 on average with a deviation of 0.012, so 16
@@ -288,6 +289,7 @@ def test_bodies_in_pools_too_deep_for_the_rate_stay_whole(depth: int, cell: floa
         assert rms(world) < 0.3
 
 
+@pytest.mark.long
 def test_no_gap_stays_around_what_falls_into_water() -> None:
     """A gap displaces water, too. With one of g cells around it a cube of six cells and half of water's density floats as deep as (6 + 2 g)^2 (depth + g) = 6^3 / 2
     says: 0.38 of it is below the level with 0.25. It was 0.33 where nothing closed the gap, which has half a cell then."""

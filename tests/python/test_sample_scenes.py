@@ -30,7 +30,7 @@ def test_a_sample_at_the_pace_of_a_game(root: Path, name: str) -> None:
         assert simulation.account()["deleted"] == 0
 
 
-@pytest.mark.parametrize("script", ["samples/demo.sh", "tests/run.sh"])
+@pytest.mark.parametrize("script", ["samples/demo.sh", "tests/run.sh", "tests/long.sh"])
 def test_scripts_name_the_argument_that_they_do_not_know(root: Path, script: str) -> None:
     """Before they install or build anything."""
     done = subprocess.run(["sh", root / script, "--pictres"], capture_output=True, text=True, timeout=60)

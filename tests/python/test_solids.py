@@ -259,6 +259,7 @@ def _rest_height(mass: float, seconds: float = 7.0) -> float:
     return float(np.mean(heights[3 * 120 :]))
 
 
+@pytest.mark.long
 def test_a_light_body_floats_and_a_heavy_one_sinks() -> None:
     level = 0.5 * 0.3 / 2  # it displaces 0.15 m^2 in a basin of 2 m
     draught = level - (_rest_height(150.0) - 0.3)
