@@ -68,6 +68,23 @@ void constraints_project(const ContactFrame *frame, float *displacement, int32_t
     }
 }
 
+bool constraints_touch(const Contact *contact, const float *u) { return is_held(contact) || excess_of(contact, u) > -SURFACE_ROUNDING; }
+
+bool constraints_push(const Contact *contact, const float *u, const float *gradient)
+{
+    return !is_held(contact) && constraints_touch(contact, u) && along(gradient, contact->normal) > 0.0f;
+}
+
+void constraints_lead(const Contact *contact, float *u)
+{
+    if (!is_held(contact) && contact->active) {
+        const float excess = excess_of(contact, u);
+        for (int a = 0; a < 3; a++) u[a] += excess * contact->normal[a];
+        return;
+    }
+    put_back(contact, u);
+}
+
 void constraints_find_active(const ContactFrame *frame, const float *displacement, float *gradient, int32_t begin, int32_t end)
 {
     if (frame->colliders->contacts == 0) return;
@@ -77,8 +94,7 @@ void constraints_find_active(const ContactFrame *frame, const float *displacemen
             Contact *contact = &list.contact[i];
             const float *u = displacement + list.node + contact->node * K_NODE_WIDTH;
             float *g = node_of(&list, i, gradient);
-            const bool pushes = !is_held(contact) && excess_of(contact, u) > -SURFACE_ROUNDING && along(g, contact->normal) > 0.0f;
-            contact->active = pushes || is_held(contact);
+            contact->active = is_held(contact) || constraints_push(contact, u, g);
             if (contact->active) take_out(contact, g);
         }
     }
@@ -93,6 +109,14 @@ void constraints_remove(const ContactFrame *frame, float *vector, int32_t begin,
             for (uint32_t i = list.begin; i < list.end; i++)
                 if (list.contact[i].active) take_out(&list.contact[i], node_of(&list, i, vector));
     }
+}
+
+void constraints_remove_led(const ContactFrame *frame, float *vector, int32_t block)
+{
+    if (frame->colliders->contacts == 0) return;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++)
+        if (is_held(&list.contact[i]) || (list.contact[i].follows && list.contact[i].active)) take_out(&list.contact[i], node_of(&list, i, vector));
 }
 
 void constraints_remove_from(const ContactFrame *frame, float *vector, int32_t block)
@@ -433,6 +457,9 @@ static void given_by(const Contact *contact, const float *gradient, const float 
     for (int a = 0; a < 3; a++) given[a] = gradient[a] - (rub > 0.0f ? rub * slip[a] : 0.0f);
 }
 
+/* What moves as the obstacle does: the surface, but for nodes that follow others. */
+static const float *wall_of(const Contact *contact) { return contact->follows ? contact->wall : contact->surface; }
+
 double constraints_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block)
 {
     double work = 0.0;
@@ -444,20 +471,20 @@ double constraints_work(const ContactFrame *frame, const float *gradient, const 
         float given[3];
         if (contact->stays || !contact->active) continue;
         given_by(contact, gradient + node, u + node, least, given);
-        work += fmax(0.0, (double)along(given, contact->surface));
+        work += fmax(0.0, (double)along(given, wall_of(contact)));
     }
     return work;
 }
 
-/* Adds an impulse. The motion of the surfaces is the mean of `motion`. */
-static void add_exchange(const Contact *contact, const float given[3], const float motion[3], ContactExchange *sum)
+/* Adds an impulse to what moves so. The motion of the surfaces is the mean of `surface`. */
+static void add_exchange(const float given[3], const float moved[3], const float surface[3], ContactExchange *sum)
 {
     const double size = sqrt((double)along(given, given));
-    sum->work += (double)along(given, contact->surface);
+    sum->work += (double)along(given, moved);
     sum->size += size;
     for (int a = 0; a < 3; a++) {
         sum->given[a] += (double)given[a];
-        sum->surface[a] += size * (double)motion[a];
+        sum->surface[a] += size * (double)surface[a];
     }
 }
 
@@ -471,7 +498,7 @@ void constraints_exchange(const ContactFrame *frame, const float *gradient, cons
         float given[3];
         if (contact->stays || !contact->active) continue;
         given_by(contact, gradient + node, u + node, least, given);
-        add_exchange(contact, given, contact->surface, sum);
+        add_exchange(given, wall_of(contact), wall_of(contact), sum);
     }
 }
 
@@ -483,7 +510,7 @@ void constraints_exchange_staying(const ContactFrame *frame, const float *gradie
         const Contact *contact = &list.contact[i];
         const float *given = gradient + list.node + contact->node * K_NODE_WIDTH;
         if (!contact->stays || !is_held(contact)) continue;
-        add_exchange(contact, given, contact->wall, sum);
+        add_exchange(given, wall_of(contact), contact->wall, sum);
     }
 }
 

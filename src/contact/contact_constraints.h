@@ -8,6 +8,15 @@
 /* Moves displacements (K_NODE_WIDTH floats per node) to what the contacts allow; without friction. */
 void constraints_project(const ContactFrame *frame, float *displacement, int32_t begin, int32_t end);
 
+/* Whether a contact holds or touches its node. */
+bool constraints_touch(const Contact *contact, const float *u);
+
+/* Whether a contact that does not hold touches, and is pushed by -gradient. */
+bool constraints_push(const Contact *contact, const float *u, const float *gradient);
+
+/* Takes a node that follows to its surface: if the contact is active, else not beyond it. */
+void constraints_lead(const Contact *contact, float *u);
+
 /* Finds the active contacts: those that hold, or that touch and are pushed against the surface by -gradient. What the active ones hold is taken out
  * of the gradient. */
 void constraints_find_active(const ContactFrame *frame, const float *displacement, float *gradient, int32_t begin, int32_t end);
@@ -15,7 +24,10 @@ void constraints_find_active(const ContactFrame *frame, const float *displacemen
 /* Takes out of a vector what the active contacts hold. */
 void constraints_remove(const ContactFrame *frame, float *vector, int32_t begin, int32_t end);
 
-/* The same of a block's own vector. */
+/* Takes out of a vector of motions those that are not a node's own: of nodes that are held, or follow others. */
+void constraints_remove_led(const ContactFrame *frame, float *vector, int32_t block);
+
+/* As constraints_remove(), of a block's own vector. */
 void constraints_remove_from(const ContactFrame *frame, float *vector, int32_t block);
 
 /* Takes out of a node's vector what one contact holds. */
@@ -115,7 +127,7 @@ enum { EXCHANGE_SUMS = sizeof(ContactExchange) / sizeof(double) };
 /* Adds those of a block. */
 void constraints_exchange(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block, ContactExchange *sum);
 
-/* Adds those of what holds a block's nodes that stay (joint.h): work by their own motion, and the motion of their walls. */
+/* Adds those of what holds a block's nodes that stay (joint.h): work by their own motion, or of those that follow by that of their walls, and the motion of these. */
 void constraints_exchange_staying(const ContactFrame *frame, const float *gradient, int32_t block, ContactExchange *sum);
 
 /* The work of moving surfaces on a body that gained this momentum. Impulses of an unfinished solution do not add up to it: what is missing goes with the surfaces' mean

@@ -17,7 +17,8 @@ typedef struct Contact {
     bool active; /* while the primal solver works: see constraints_find_active() */
     uint8_t group; /* of the body's contacts with about this normal, and */
     float limit;   /* the most that friction gives [mass times displacement], both while the primal solver works: see constraints_friction() */
-    bool stays; /* the node goes where `surface` says, see joint.h */
+    bool stays; /* the node goes where `surface` says, see joint.h; and */
+    bool follows; /* that is where others lead it, see primal_follow.h */
     bool walled; /* the node is listed in walls, which books what it is given */
     float gap; /* how far the node may approach; 0 inside */
     float normal[3];
@@ -61,7 +62,7 @@ typedef struct ContactFrame {
     const uint64_t *solid;       /* per node block: bit n, a solid reaches node n, see reach.h; null: nobody looked */
     bool liquid;                 /* there is nothing but liquid */
     bool viscous;                /* some of it has a viscosity, which walls hold: see wall_shear.h */
-    bool apart;                  /* walls leave those nodes to contacts, and nodes that would follow them: the joint solver */
+    bool slips;                  /* near solids nodes behind walls have their motion along these themselves: the joint solver */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
     const uint64_t *grabbed; /* likewise: node n goes where the predictor says, where no obstacle is within a cell; null: none does */
     struct ObstacleCache *cache;         /* what may be taken over from the last substep; null: nothing, and nothing is kept */

@@ -33,7 +33,7 @@ static double reach_of(const ContactFrame *frame, const Obstacle *o, int32_t blo
     double motion = 0.0;
     for (int a = 0; a < 3; a++) motion += fabs((double)surface[a]);
     const double node = ((const float *)frame->grid->node_reach.data)[block] * sqrt((double)frame->grid->dimension);
-    return fmin(node, frame->max_displacement) + motion + (frame->walls && !frame->apart ? WAY_MARGIN_AT_WALLS : WAY_MARGIN);
+    return fmin(node, frame->max_displacement) + motion + (frame->walls ? WAY_MARGIN_AT_WALLS : WAY_MARGIN);
 }
 
 static Contact contact_at(const ContactFrame *frame, const Obstacle *o, const double point[3], int node, double distance,
@@ -154,11 +154,22 @@ static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *aro
     return count;
 }
 
-/* Whether a node stays where it was taken; see joint.h. */
-static bool node_stays(const ContactFrame *frame, int32_t block, int node)
+/* Whether a node is led by walls: it stays where it was taken, or follows; see joint.h. A node before them that a solid reaches has contacts as elsewhere. */
+static bool is_led(const ContactFrame *frame, uint32_t at)
 {
-    const uint32_t at = (uint32_t)(block * frame->grid->block_cells + node);
-    return walls_list(frame->staying, at) && !reach_solid(frame, at);
+    if (!walls_list(frame->staying, at)) return false;
+    return !reach_solid(frame, at) || walls_follows(frame->staying, at);
+}
+
+/* Whether solids reach it, or a node that it follows: then it goes where that leads it. */
+static bool follows_solid(const ContactFrame *frame, uint32_t at)
+{
+    uint32_t parent[CORNERS_MAX];
+    float weight[CORNERS_MAX];
+    Columns matrix;
+    bool follows = reach_solid(frame, at);
+    for (int k = walls_parents(frame->staying, at, parent, weight, &matrix) - 1; k >= 0; k--) follows = follows || reach_solid(frame, parent[k]);
+    return follows;
 }
 
 /* In an edge each wall but the nearest books what it gives along its own normal, the nearest the rest. */
@@ -175,10 +186,30 @@ static uint32_t contacts_that_stay(const ContactFrame *frame, int32_t block, int
             memcpy(out[count].normal, normal[k], sizeof out[count].normal);
         }
     if (out) {
-        out[count] = (Contact){.node = (uint16_t)node, .obstacle = obstacle[0], .friction = PBMPM_FRICTION_STICK, .stays = true};
+        out[count] = (Contact){.node = (uint16_t)node, .obstacle = obstacle[0], .friction = PBMPM_FRICTION_STICK, .stays = true, .follows = follows_solid(frame, at)};
         walls_motion(frame->staying, at, out[count].wall);
     }
     return count + 1;
+}
+
+/* A node that solids reach, at walls that push and do not pull: a contact per face, with what the nodes before it lead it to for a surface. */
+static uint32_t contacts_that_follow(const ContactFrame *frame, const double point[3], int node, uint32_t at, Contact *out)
+{
+    uint16_t obstacle[3];
+    const float *normal[3];
+    float scale[3];
+    const int faces = walls_scales(frame->staying, at, scale);
+    walls_faces(frame->staying, at, obstacle, normal);
+    for (int k = 0; k < faces && out; k++) {
+        const Obstacle *o = &frame->colliders->obstacle[obstacle[k]];
+        const double along[3] = {(double)normal[k][0], (double)normal[k][1], (double)normal[k][2]};
+        double unused[3];
+        out[k] = contact_at(frame, o, point, node, scale[k] < 1.0f ? 0.0 : solid_distance(&o->start, point, unused) / frame->cell_size, along);
+        out[k].follows = scale[k] < 1.0f;
+        if (!reach_solid(frame, at)) out[k].coefficient = 0.0f;
+        memcpy(out[k].wall, out[k].surface, sizeof out[k].wall);
+    }
+    return (uint32_t)faces;
 }
 
 /* Contacts of one block's nodes; writes them if `out` is not null, and returns their number. */
@@ -194,11 +225,14 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *all, 
         double point[3];
         Plane nearest;
         if (u[3] == 0.0f || walls_hold(frame->walls, (uint32_t)(block * grid->block_cells + i))) continue; /* no mass, nobody listens */
-        if (node_stays(frame, block, i)) {
-            count += contacts_that_stay(frame, block, i, out ? out + count : NULL);
+        const size_t at = (size_t)block * (size_t)grid->block_cells + (size_t)i;
+        if (is_led(frame, (uint32_t)at)) {
+            float unused[3];
+            contacts_node_position(frame, block, i, point);
+            if (walls_scales(frame->staying, (uint32_t)at, unused) > 0) count += contacts_that_follow(frame, point, i, (uint32_t)at, out ? out + count : NULL);
+            else count += contacts_that_stay(frame, block, i, out ? out + count : NULL);
             continue;
         }
-        const size_t at = (size_t)block * (size_t)grid->block_cells + (size_t)i;
         const Around *around = around_node(frame, all, at, &some);
         if ((double)frame->gap[at] > around->most) continue;
         const Near *near = &around->near;

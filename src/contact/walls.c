@@ -35,6 +35,38 @@ int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const f
     return n->normals;
 }
 
+int walls_parents(const Walls *walls, uint32_t node, uint32_t parent[CORNERS_MAX], float weight[CORNERS_MAX], Columns *matrix)
+{
+    const WallNode *list = walls->node.data;
+    const WallNode *n = list + walls_place(walls, node) - 1;
+    int count = 0;
+    if (n->entry == NO_ENTRY) return 0;
+    const WallEntry *entry = (const WallEntry *)walls->entry.data + n->entry;
+    const WallCorner *corner = walls->corner.data;
+    *matrix = entry->matrix;
+    for (uint32_t k = entry->corner_begin; k < entry->corner_end; k++, count++) {
+        parent[count] = list[corner[k].parent].node;
+        weight[count] = corner[k].weight;
+    }
+    return count;
+}
+
+int walls_scales(const Walls *walls, uint32_t node, float scale[3])
+{
+    const WallUnilateral *list = walls->unilateral.data;
+    const uint32_t place = walls_place(walls, node) - 1;
+    const WallNode *n = (const WallNode *)walls->node.data + place;
+    uint32_t low = 0, high = walls->unilaterals;
+    if (!n->unilateral) return 0;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (list[middle].follower > place) high = middle;
+        else low = middle;
+    }
+    memcpy(scale, list[low].scale, sizeof list[low].scale);
+    return n->normals;
+}
+
 void walls_motion(const Walls *walls, uint32_t node, float motion[3])
 {
     memcpy(motion, ((const WallNode *)walls->node.data + walls_place(walls, node) - 1)->surface, 3 * sizeof *motion);
@@ -44,6 +76,12 @@ bool walls_hold(const Walls *walls, uint32_t node)
 {
     const uint32_t place = walls_place(walls, node);
     return place > 0 && ((const WallNode *)walls->node.data)[place - 1].follows;
+}
+
+bool walls_follows(const Walls *walls, uint32_t node)
+{
+    const uint32_t place = walls_place(walls, node);
+    return place > 0 && ((const WallNode *)walls->node.data)[place - 1].entry != NO_ENTRY;
 }
 
 /* ---- Making motion admissible ---- */

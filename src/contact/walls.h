@@ -37,8 +37,17 @@ static inline uint32_t walls_place(const Walls *walls, uint32_t node) { return w
 static inline bool walls_list(const Walls *walls, uint32_t node) { return walls_place(walls, node) > 0; }
 bool walls_hold(const Walls *walls, uint32_t node);
 
+/* Whether it follows nodes before it. */
+bool walls_follows(const Walls *walls, uint32_t node);
+
 /* The obstacles that a listed node is at, the nearest first, and their normals there. Returns their number. */
 int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const float *normal[3]);
+
+/* What a listed node follows: nodes of the grid, weights that add up to 1, and A of its entry. Returns how many; 0: it follows none. */
+int walls_parents(const Walls *walls, uint32_t node, uint32_t parent[CORNERS_MAX], float weight[CORNERS_MAX], Columns *matrix);
+
+/* By which share of the motion before it each face of a listed node lets it go on, if they are unilateral: see walls_unilateral.h. Returns the number of faces; 0: none is. */
+int walls_scales(const Walls *walls, uint32_t node, float scale[3]);
 
 /* The displacement [cells] of the nearest wall, at a listed node. */
 void walls_motion(const Walls *walls, uint32_t node, float motion[3]);

@@ -236,16 +236,14 @@ typedef struct Image {
     double way[3]; /* from the node [cells] */
     double weight;
     bool before; /* only nodes before all faces count */
-    bool apart;  /* not if solids reach one of them: */
-    bool solid;  /* that is so */
 } Image;
 
 /* How far [cells] beside a node is on it. Weights that are less are not worth a place. */
 static const double ON_NODE = 1e-6;
 
 /* Adds the nodes around an image to the corners, by multilinear weights times its own. `distance`: their mean distances from the faces of `profile`. False: there are
- * none, or not to be any. */
-static bool add_corners(Builder *b, const Bound *bound, Image *image, const Profile *profile, int count, double distance[NORMALS_MAX])
+ * none. */
+static bool add_corners(Builder *b, const Bound *bound, const Image *image, const Profile *profile, int count, double distance[NORMALS_MAX])
 {
     Walls *walls = b->walls;
     const int dimension = b->frame->grid->dimension;
@@ -279,9 +277,8 @@ static bool add_corners(Builder *b, const Bound *bound, Image *image, const Prof
         if (image->before && !free) continue;
         share[k] = of_corner;
         sum += of_corner;
-        image->solid = image->solid || (image->apart && reach_solid(b->frame, (uint32_t)node[k]));
     }
-    if (sum < 1e-3 || image->solid) return false;
+    if (sum < 1e-3) return false;
     if (!array_grow(b->memory, &walls->corner, (size_t)walls->corners + CORNERS_MAX, sizeof(WallCorner), (size_t)walls->corners * sizeof(WallCorner))) {
         b->failed = true;
         return false;
@@ -418,38 +415,29 @@ static void set_face(WallUnilateral *u, const WallNode *node, int j, double scal
     u->surface[j] = scale == 1.0 ? 0.0f : (float)(along / (1.0 - scale));
 }
 
-/* The node follows none, so it meets obstacles by contacts. Its density is mirrored as elsewhere. */
-static void leave_to_contacts(WallNode *node)
+/* Whether solids reach a node or one that it follows. */
+static bool leads_solid(const Builder *b, const Bound *bound, uint32_t corner_begin)
 {
-    node->follows = false;
-    node->behind = 0.0f;
-    memcpy(node->own, ALL, sizeof ALL);
-}
-
-/* Whether a node that follows nodes with contacts has contacts, too. Not at walls that stick, nor at rigid bodies: both
- * need the grip of what follows. */
-static bool may_have_contacts(const Builder *b, const Profile *profile, int count, bool sticks)
-{
-    bool may = b->frame->apart && !sticks;
-    for (int j = 0; j < count; j++) may = may && !profile[j].owner->body;
-    return may;
+    const WallNode *list = b->walls->node.data;
+    const WallCorner *corner = b->walls->corner.data;
+    bool solid = reach_solid(b->frame, bound->node);
+    for (uint32_t k = corner_begin; k < b->walls->corners; k++) solid = solid || reach_solid(b->frame, list[corner[k].parent].node);
+    return solid;
 }
 
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
 static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
 {
-    Image image = {.weight = 1.0, .before = true, .apart = may_have_contacts(b, profile, count, sticks)};
+    Image image = {.weight = 1.0, .before = true};
     double distance[NORMALS_MAX], scale[NORMALS_MAX];
     const uint32_t corner_begin = b->walls->corners;
     way_out(profile, count, image.way);
-    const bool found = add_corners(b, bound, &image, profile, count, distance), unilateral = found && !sticks && reach_solid(b->frame, bound->node);
+    const bool found = add_corners(b, bound, &image, profile, count, distance), slips = found && !sticks && b->frame->slips && leads_solid(b, bound, corner_begin);
+    const bool unilateral = found && !sticks && (slips || reach_solid(b->frame, bound->node));
     WallNode *node = (WallNode *)b->walls->node.data + index; /* the list may have moved */
-    if (image.solid) {
-        leave_to_contacts(node);
-        return;
-    }
-    float matrix[6];
-    memcpy(matrix, rest, sizeof matrix);
+    float matrix[6] = {0};
+    node->slips = slips;
+    memcpy(slips ? node->own : matrix, rest, sizeof matrix);
     for (int j = 0; j < count; j++) {
         double along = 0.0;
         scale[j] = profile[j].distance >= WET_CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
@@ -564,11 +552,6 @@ static void look_near_block(const ContactFrame *frame, int32_t block, Near *near
     field_near(near, frame, centre, 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension) + OBSTACLE_CACHE_REACH, false);
 }
 
-static bool has_contacts(const ContactFrame *frame, int32_t block, int node)
-{
-    return frame->apart && reach_solid(frame, (uint32_t)(block * frame->grid->block_cells + node));
-}
-
 static bool is_held(const ContactFrame *frame, int32_t block, int node) { return frame->held && frame->held[block] >> node & 1; }
 
 /* Which nodes are at walls, as bits. */
@@ -580,7 +563,7 @@ static void mark_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t block = begin; block < end; block++) {
         marks[block] = 0;
         for (int node = 0; node < grid->block_cells; node++)
-            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < job->reach && !is_held(job->frame, block, node) && !has_contacts(job->frame, block, node))
+            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < job->reach && !is_held(job->frame, block, node))
                 marks[block] |= (uint64_t)1 << node;
     }
 }

@@ -70,6 +70,7 @@ typedef struct WallNode {
     float behind;      /* volume [cells^d] that its spline sees between the wall and the wall's image, see walls_weigh() */
     bool follows;      /* its motion is that of others, or of a wall with matter on both sides, but for what `own` leaves it */
     uint8_t unilateral; /* of these flags */
+    bool slips;         /* along its walls it moves by itself */
     float coefficient; /* of friction, on the nearest wall */
     float surface[3];  /* that wall's motion */
 } WallNode;

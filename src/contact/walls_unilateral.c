@@ -69,10 +69,10 @@ static void switch_to(const Walls *walls, WallUnilateral *u, uint32_t held, int 
 {
     WallNode *n = (WallNode *)walls->node.data + u->follower;
     WallGrip *grip = walls->grip.data;
-    float matrix[6], own[6] = {0};
+    float matrix[6] = {0}, own[6] = {0};
     Four shift = {0};
     u->held = held;
-    free_part(n, dimension, matrix);
+    free_part(n, dimension, n->slips ? own : matrix);
     for (int j = 0; j < n->normals; j++) {
         const float holds = held >> j & 1 ? 1.0f : 0.0f, share = holds * (1.0f - u->scale[j]);
         const Four normal = {n->normal[j][0], n->normal[j][1], n->normal[j][2]};

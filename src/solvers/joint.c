@@ -74,7 +74,8 @@ pbmpm_result joint_find_contacts(World *world, const ContactFrame *contacts)
     frame.walls = NULL;
     frame.staying = &world->walls;
     exchange_contacts(world);
-    const pbmpm_result result = contacts_find(&frame, &world->memory, world->pool);
+    pbmpm_result result = contacts_find(&frame, &world->memory, world->pool);
+    if (result == PBMPM_OK) result = primal_follow_list(world);
     exchange_contacts(world);
     return result;
 }
@@ -163,7 +164,7 @@ static void push_staying(const World *world, Contact *contact, size_t at)
     const float *u = (const float *)world->grid.node.data + at, *gradient = primal_gradient(world) + at;
     const float share = released_share(world);
     float *base = (float *)world->grid.node_base.data + at;
-    (void)contact;
+    if (contact->follows) return; /* its parents got its part */
     if (primal_sketch_gained(world, (int32_t)(at / W / (size_t)world->grid.block_cells))) return;
     for (size_t c = 0; c < 3 && base[3] > 0.0f; c++) base[c] += share * ((u[c] - base[c]) - (gradient[c] + world->args.dual.node_push[at + c]) / base[3]);
 }
@@ -186,6 +187,7 @@ static void begin_primal(World *world)
 
 static void sketch(World *world, const ContactFrame *contacts)
 {
+    primal_follow_note(world);
     over_blocks(world, start_solids);
     begin_primal(world);
     if (primal_sketch(world, contacts) > 0) over_blocks(world, leave_sketch);
@@ -236,6 +238,7 @@ void joint_solve(World *world, const ContactFrame *contacts)
     const StepRecord dual = world->record;
     memcpy(world->grid.node_base.data, world->joint.base.data, bytes);
     world->record.iterations_used = 0;
+    primal_follow_note(world);
     begin_primal(world);
     wall_bodies_keep(&world->walls, contacts);
     walls_clear(&world->walls); /* contacts book what they give */

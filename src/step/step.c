@@ -215,7 +215,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .kernel = world->materials.kernel,
                                .liquid = kinds == KIND_LIQUID,
                                .viscous = viscosity_acts(world),
-                               .apart = solver == SOLVER_JOINT,
+                               .slips = solver == SOLVER_JOINT,
                                .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     world->colliders.measures = world->colliders.measures || world->forces.holds; /* a grab's impulse is always known */

@@ -87,7 +87,7 @@ pbmpm_result primal_prepare(World *world)
 void primal_free(World *world)
 {
     PrimalState *s = &world->primal;
-    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->kept, &s->among_liquid, &s->sums, &s->body_sums, &s->searches, &s->rigid, &s->friction, &s->moves};
+    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->kept, &s->among_liquid, &s->follower, &s->sums, &s->body_sums, &s->searches, &s->rigid, &s->friction, &s->moves};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
     multilevel_free(&s->multilevel, &world->memory);

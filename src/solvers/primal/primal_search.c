@@ -10,6 +10,7 @@
 
 #include "contact/contact_constraints.h"
 #include "solvers/passes.h"
+#include "solvers/primal/primal_follow.h"
 #include "solvers/primal/primal_solve.h"
 #include "solvers/primal/primal_yield.h"
 
@@ -144,9 +145,11 @@ static void evaluate_after(Primal *p, Loops *loops, Kernel *force)
 {
     World *world = p->world;
     const float *energy = world->primal.block_energy.data;
+    primal_add_follow(p, loops);
     solver_add_rows(loops, world, force, &world->args);
     solver_add_nodes(loops, world, world->kernels->force_nodes, &world->args, NULL);
     primal_add_pass(p, loops, finish_gradient);
+    primal_add_fold(p, loops);
     primal_run_and_gather(p, loops);
     for (int32_t i = 0; i < world->grid.bodies; i++) {
         Search *search = &p->search[i];
@@ -263,6 +266,7 @@ static void keep_pair(Primal *p, int32_t block, size_t begin, size_t end, double
     if (search->phase != SEARCH_ACCEPTS) return;
     float *step = primal_step_of(p, search, 0), *change = primal_change_of(p, search, 0);
     subtract(step, p->node, p->best, begin, end);
+    if (p->joint) constraints_remove_led(p->contacts, step, block); /* nodes that follow do not move by themselves */
     subtract(change, p->force, p->gradient, begin, end);
     for (int i = 0; i < search->pairs; i++) sum[i] = dot(change, primal_step_of(p, search, i), begin, end);
     sum[SUMS - 1] = dot(step, step, begin, end);
