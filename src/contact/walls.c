@@ -51,20 +51,38 @@ int walls_parents(const Walls *walls, uint32_t node, uint32_t parent[CORNERS_MAX
     return count;
 }
 
-int walls_scales(const Walls *walls, uint32_t node, float scale[3])
+/* Of a node of the list; null: its walls are not. */
+static const WallUnilateral *unilateral_of(const Walls *walls, uint32_t place)
 {
     const WallUnilateral *list = walls->unilateral.data;
-    const uint32_t place = walls_place(walls, node) - 1;
-    const WallNode *n = (const WallNode *)walls->node.data + place;
     uint32_t low = 0, high = walls->unilaterals;
-    if (!n->unilateral) return 0;
+    if (!((const WallNode *)walls->node.data)[place].unilateral) return NULL;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
         if (list[middle].follower > place) high = middle;
         else low = middle;
     }
-    memcpy(scale, list[low].scale, sizeof list[low].scale);
-    return n->normals;
+    return &list[low];
+}
+
+int walls_scales(const Walls *walls, uint32_t node, float scale[3])
+{
+    const uint32_t place = walls_place(walls, node) - 1;
+    const WallUnilateral *u = unilateral_of(walls, place);
+    if (!u) return 0;
+    memcpy(scale, u->scale, sizeof u->scale);
+    return ((const WallNode *)walls->node.data)[place].normals;
+}
+
+float walls_surface(const Walls *walls, uint32_t node, int face)
+{
+    const ApplyJob job = {.walls = walls, .v = vectors_of(walls), .shifted = 1.0f};
+    const uint32_t place = walls_place(walls, node) - 1;
+    const float *n = ((const WallNode *)walls->node.data)[place].normal[face];
+    const WallUnilateral *u = unilateral_of(walls, place);
+    if (walls->grips == 0 || !(u->held >> face & 1) || u->scale[face] == 1.0f) return u->surface[face];
+    const Four yields = yields_at(&job)[place];
+    return u->surface[face] + (yields[0] * n[0] + yields[1] * n[1] + yields[2] * n[2]) / (1.0f - u->scale[face]);
 }
 
 void walls_motion(const Walls *walls, uint32_t node, float motion[3])
@@ -199,7 +217,8 @@ static void times_lump(const WallNode *n, const float v[3], float out[3])
     out[2] = m[2] * v[0] + m[4] * v[1] + m[5] * v[2];
 }
 
-/* Coulomb: the motion along the wall loses at most the coefficient times the normal impulse, of the nodes that follow in proportion to what they follow. */
+/* Coulomb: the motion along the wall loses at most the coefficient times the normal impulse, of the nodes that follow in proportion to what they follow. Those that slip
+ * have that motion, and so the loss, themselves. */
 static void rub(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
@@ -213,7 +232,8 @@ static void rub(void *context, int32_t begin, int32_t end)
         Four *u = &job->v.free[i];
         float v[3], impulse = 0.0f, along = 0.0f, size2 = 0.0f;
         if (n->coefficient == 0.0f) continue;
-        for (uint32_t l = n->link_begin; l < n->link_moving; l++) impulse += link[l].weight * job->v.moved[entry[link[l].from].follower][3];
+        for (uint32_t l = n->link_begin; l < n->link_moving; l++) impulse += link[l].weight * job->v.moved[entry[link[l].from].follower][3] * (float)!node[entry[link[l].from].follower].slips;
+        if (n->slips) impulse = job->v.moved[i][3];
         const float trace = n->lump[0] + n->lump[3] + n->lump[5];
         if (!(impulse > 0.0f) || !(trace > 0.0f)) continue;
         for (int a = 0; a < 3; a++) along += ((*u)[a] - n->surface[a]) * n->normal[0][a];

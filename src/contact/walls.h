@@ -46,8 +46,12 @@ int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const f
 /* What a listed node follows: nodes of the grid, weights that add up to 1, and A of its entry. Returns how many; 0: it follows none. */
 int walls_parents(const Walls *walls, uint32_t node, uint32_t parent[CORNERS_MAX], float weight[CORNERS_MAX], Columns *matrix);
 
-/* By which share of the motion before it each face of a listed node lets it go on, if they are unilateral: see walls_unilateral.h. Returns the number of faces; 0: none is. */
+/* By which share of the motion before it each face of a listed node lets it go on, if they are unilateral: see walls_unilateral.h. Returns the number of faces; 0:
+ * none is. */
 int walls_scales(const Walls *walls, uint32_t node, float scale[3]);
+
+/* How far [cells] such a face moves along its normal, with what its rigid body yielded to in the last walls_apply(). */
+float walls_surface(const Walls *walls, uint32_t node, int face);
 
 /* The displacement [cells] of the nearest wall, at a listed node. */
 void walls_motion(const Walls *walls, uint32_t node, float motion[3]);

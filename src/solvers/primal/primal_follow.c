@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "contact/walls.h"
+#include "solvers/primal/primal.h"
 
 typedef struct Follower {
     uint32_t contact, node; /* of the grid */
@@ -14,19 +15,18 @@ typedef struct Follower {
     float square;   /* its mean square */
     float shift[3]; /* c0 */
     bool unilateral;
-    float scale;    /* then; of the motion along the contact's normal */
+    int face;    /* then; of the node */
+    float scale; /* of the motion along its normal */
 } Follower;
 
-static float scale_of(const Walls *walls, uint32_t node, const Contact *contact)
+/* Which face of the node a contact stands for. */
+static int face_of(const Walls *walls, uint32_t node, const Contact *contact)
 {
     uint16_t obstacle[3];
     const float *normal[3];
-    float scale[3];
-    const int faces = walls_scales(walls, node, scale);
-    walls_faces(walls, node, obstacle, normal);
-    for (int k = 0; k < faces; k++)
-        if (obstacle[k] == contact->obstacle && memcmp(normal[k], contact->normal, sizeof contact->normal) == 0) return scale[k];
-    return 0.0f;
+    int face = walls_faces(walls, node, obstacle, normal) - 1;
+    while (face > 0 && !(obstacle[face] == contact->obstacle && memcmp(normal[face], contact->normal, sizeof contact->normal) == 0)) face--;
+    return face;
 }
 
 pbmpm_result primal_follow_list(World *world)
@@ -45,8 +45,10 @@ pbmpm_result primal_follow_list(World *world)
             f->contact = i;
             f->node = (uint32_t)(block * world->grid.block_cells + contact[i].node);
             f->parents = walls_parents(&world->walls, f->node, f->parent, f->weight, &f->matrix);
-            f->scale = scale_of(&world->walls, f->node, &contact[i]);
-            f->unilateral = contact[i].friction != PBMPM_FRICTION_STICK;
+            float scale[3];
+            f->unilateral = walls_scales(&world->walls, f->node, scale) > 0;
+            f->face = f->unilateral ? face_of(&world->walls, f->node, &contact[i]) : 0;
+            f->scale = f->unilateral ? scale[f->face] : 0.0f;
             f->square = 0.0f;
             for (int a = 0; a < 3; a++)
                 for (int c = 0; c < 3; c++) f->square += f->matrix.column[a][c] * f->matrix.column[a][c] / (float)world->def.dimension;
@@ -78,6 +80,14 @@ static void lead(const Follower *f, Contact *contact, const float *nodes)
     for (int a = 0; a < 3; a++) contact->surface[a] = from[a] + f->shift[a];
 }
 
+/* Along the normal the wall goes as the dual had it. */
+static void note_surface(const Walls *walls, const Follower *f, Contact *contact)
+{
+    float more = walls_surface(walls, f->node, f->face);
+    for (int a = 0; a < 3; a++) more -= contact->wall[a] * contact->normal[a];
+    for (int a = 0; a < 3; a++) contact->wall[a] += more * contact->normal[a];
+}
+
 void primal_follow_note(World *world)
 {
     const float *nodes = world->grid.node.data;
@@ -86,6 +96,7 @@ void primal_follow_note(World *world)
     for (uint32_t i = 0; i < world->primal.followers; i++) {
         const Four from = times(&list[i].matrix, mean_of_parents(&list[i], nodes));
         Contact *contact = &contacts[list[i].contact];
+        if (list[i].unilateral) note_surface(&world->walls, &list[i], contact);
         for (size_t a = 0; a < 3; a++) list[i].shift[a] = nodes[(size_t)list[i].node * W + a] - from[a];
         lead(&list[i], contact, nodes);
         contact->active = constraints_touch(contact, nodes + (size_t)list[i].node * W);
