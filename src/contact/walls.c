@@ -51,38 +51,20 @@ int walls_parents(const Walls *walls, uint32_t node, uint32_t parent[CORNERS_MAX
     return count;
 }
 
-/* Of a node of the list; null: its walls are not. */
-static const WallUnilateral *unilateral_of(const Walls *walls, uint32_t place)
+int walls_scales(const Walls *walls, uint32_t node, float scale[3])
 {
     const WallUnilateral *list = walls->unilateral.data;
+    const uint32_t place = walls_place(walls, node) - 1;
+    const WallNode *n = (const WallNode *)walls->node.data + place;
     uint32_t low = 0, high = walls->unilaterals;
-    if (!((const WallNode *)walls->node.data)[place].unilateral) return NULL;
+    if (!n->unilateral) return 0;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
         if (list[middle].follower > place) high = middle;
         else low = middle;
     }
-    return &list[low];
-}
-
-int walls_scales(const Walls *walls, uint32_t node, float scale[3])
-{
-    const uint32_t place = walls_place(walls, node) - 1;
-    const WallUnilateral *u = unilateral_of(walls, place);
-    if (!u) return 0;
-    memcpy(scale, u->scale, sizeof u->scale);
-    return ((const WallNode *)walls->node.data)[place].normals;
-}
-
-float walls_surface(const Walls *walls, uint32_t node, int face)
-{
-    const ApplyJob job = {.walls = walls, .v = vectors_of(walls), .shifted = 1.0f};
-    const uint32_t place = walls_place(walls, node) - 1;
-    const float *n = ((const WallNode *)walls->node.data)[place].normal[face];
-    const WallUnilateral *u = unilateral_of(walls, place);
-    if (walls->grips == 0 || !(u->held >> face & 1) || u->scale[face] == 1.0f) return u->surface[face];
-    const Four yields = yields_at(&job)[place];
-    return u->surface[face] + (yields[0] * n[0] + yields[1] * n[1] + yields[2] * n[2]) / (1.0f - u->scale[face]);
+    memcpy(scale, list[low].scale, sizeof list[low].scale);
+    return n->normals;
 }
 
 void walls_motion(const Walls *walls, uint32_t node, float motion[3])

@@ -50,9 +50,6 @@ int walls_parents(const Walls *walls, uint32_t node, uint32_t parent[CORNERS_MAX
  * none is. */
 int walls_scales(const Walls *walls, uint32_t node, float scale[3]);
 
-/* How far [cells] such a face moves along its normal, with what its rigid body yielded to in the last walls_apply(). */
-float walls_surface(const Walls *walls, uint32_t node, int face);
-
 /* The displacement [cells] of the nearest wall, at a listed node. */
 void walls_motion(const Walls *walls, uint32_t node, float motion[3]);
 

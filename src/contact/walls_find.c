@@ -415,14 +415,15 @@ static void set_face(WallUnilateral *u, const WallNode *node, int j, double scal
     u->surface[j] = scale == 1.0 ? 0.0f : (float)(along / (1.0 - scale));
 }
 
-/* Whether solids reach a node or one that it follows. */
-static bool leads_solid(const Builder *b, const Bound *bound, uint32_t corner_begin)
+/* Whether a node is near solids, see ContactFrame.slips: they reach it or one that it follows. At rigid bodies none is. */
+static bool may_slip(const Builder *b, const Bound *bound, const Profile *profile, int count, uint32_t corner_begin)
 {
     const WallNode *list = b->walls->node.data;
     const WallCorner *corner = b->walls->corner.data;
-    bool solid = reach_solid(b->frame, bound->node);
-    for (uint32_t k = corner_begin; k < b->walls->corners; k++) solid = solid || reach_solid(b->frame, list[corner[k].parent].node);
-    return solid;
+    bool near = reach_solid(b->frame, bound->node), rigid = false;
+    for (uint32_t k = corner_begin; k < b->walls->corners; k++) near = near || reach_solid(b->frame, list[corner[k].parent].node);
+    for (int j = 0; j < count; j++) rigid = rigid || profile[j].owner->body;
+    return b->frame->slips && near && !rigid;
 }
 
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
@@ -432,7 +433,7 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     double distance[NORMALS_MAX], scale[NORMALS_MAX];
     const uint32_t corner_begin = b->walls->corners;
     way_out(profile, count, image.way);
-    const bool found = add_corners(b, bound, &image, profile, count, distance), slips = found && !sticks && b->frame->slips && leads_solid(b, bound, corner_begin);
+    const bool found = add_corners(b, bound, &image, profile, count, distance), slips = found && !sticks && may_slip(b, bound, profile, count, corner_begin);
     const bool unilateral = found && !sticks && (slips || reach_solid(b->frame, bound->node));
     WallNode *node = (WallNode *)b->walls->node.data + index; /* the list may have moved */
     float matrix[6] = {0};
@@ -725,6 +726,12 @@ static void bind_blocks(void *context, int32_t first, int32_t end)
     }
 }
 
+/* In the joint solver solids push rigid bodies by contacts alone: what the dual let those yield to is not what the primal then asks for. A box made a raft below it rock. */
+static bool has_contacts(const ContactFrame *frame, const Bound *bound)
+{
+    return frame->slips && bound->face[0].obstacle->body && reach_solid(frame, bound->node);
+}
+
 /* Finds the nodes at walls. Returns how many there are. */
 static bool bind_nodes(Builder *b, Pool *pool)
 {
@@ -747,7 +754,7 @@ static bool bind_nodes(Builder *b, Pool *pool)
     pool_for(pool, grid->node_blocks, 4, bind_blocks, &bind);
     b->bound = faced;
     for (uint32_t i = 0; i < count; i++)
-        if (bound[i].faces > 0) faced[b->bounds++] = &bound[i];
+        if (bound[i].faces > 0 && !has_contacts(b->frame, &bound[i])) faced[b->bounds++] = &bound[i];
     /* How many they follow hangs on how matter moves: here is room for more than walls anywhere took (1.6 nodes and 6.4 corners each), so that a warm step takes no memory. */
     if (!array_reserve(b->memory, &walls->node, 2 * (size_t)b->bounds, sizeof(WallNode))) return false;
     if (!array_reserve(b->memory, &walls->corner, CORNERS_MAX * (size_t)b->bounds, sizeof(WallCorner))) return false;

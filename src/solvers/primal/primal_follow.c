@@ -15,8 +15,7 @@ typedef struct Follower {
     float square;   /* its mean square */
     float shift[3]; /* c0 */
     bool unilateral;
-    int face;    /* then; of the node */
-    float scale; /* of the motion along its normal */
+    float scale; /* then: of the motion along the contact's normal */
 } Follower;
 
 /* Which face of the node a contact stands for. */
@@ -47,8 +46,7 @@ pbmpm_result primal_follow_list(World *world)
             f->parents = walls_parents(&world->walls, f->node, f->parent, f->weight, &f->matrix);
             float scale[3];
             f->unilateral = walls_scales(&world->walls, f->node, scale) > 0;
-            f->face = f->unilateral ? face_of(&world->walls, f->node, &contact[i]) : 0;
-            f->scale = f->unilateral ? scale[f->face] : 0.0f;
+            f->scale = f->unilateral ? scale[face_of(&world->walls, f->node, &contact[i])] : 0.0f;
             f->square = 0.0f;
             for (int a = 0; a < 3; a++)
                 for (int c = 0; c < 3; c++) f->square += f->matrix.column[a][c] * f->matrix.column[a][c] / (float)world->def.dimension;
@@ -80,14 +78,6 @@ static void lead(const Follower *f, Contact *contact, const float *nodes)
     for (int a = 0; a < 3; a++) contact->surface[a] = from[a] + f->shift[a];
 }
 
-/* Along the normal the wall goes as the dual had it. */
-static void note_surface(const Walls *walls, const Follower *f, Contact *contact)
-{
-    float more = walls_surface(walls, f->node, f->face);
-    for (int a = 0; a < 3; a++) more -= contact->wall[a] * contact->normal[a];
-    for (int a = 0; a < 3; a++) contact->wall[a] += more * contact->normal[a];
-}
-
 void primal_follow_note(World *world)
 {
     const float *nodes = world->grid.node.data;
@@ -96,7 +86,6 @@ void primal_follow_note(World *world)
     for (uint32_t i = 0; i < world->primal.followers; i++) {
         const Four from = times(&list[i].matrix, mean_of_parents(&list[i], nodes));
         Contact *contact = &contacts[list[i].contact];
-        if (list[i].unilateral) note_surface(&world->walls, &list[i], contact);
         for (size_t a = 0; a < 3; a++) list[i].shift[a] = nodes[(size_t)list[i].node * W + a] - from[a];
         lead(&list[i], contact, nodes);
         contact->active = constraints_touch(contact, nodes + (size_t)list[i].node * W);
