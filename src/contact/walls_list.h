@@ -50,7 +50,7 @@ typedef struct WallMirror {
 /* What of u~ a node has itself. */
 typedef enum WallOwn { OWN_NONE, OWN_PART, OWN_ALL } WallOwn;
 
-/* Solids reach a node: walls hold it or let it go, see walls_unilateral.h. In this walls_apply() a wall did the other. */
+/* Walls hold a node or let it go, see walls_unilateral.h. In this walls_apply() a wall did the other. */
 enum { UNILATERAL = 1, SWITCHED = 2 };
 
 typedef struct WallNode {
@@ -113,7 +113,7 @@ typedef struct WallBody {
 
 #define NO_GRIP UINT32_MAX
 
-/* A node that solids reach: what each wall does to it while that holds it, see walls_unilateral.h. */
+/* What each wall does to a node while that holds it, see walls_unilateral.h. */
 typedef struct WallUnilateral {
     uint32_t follower;
     uint32_t held;               /* bit j: face j of the node holds it */

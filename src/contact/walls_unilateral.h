@@ -1,4 +1,4 @@
-/* Walls push and do not pull: Signorini's condition, at nodes that solids reach.
+/* Walls push and do not pull: Signorini's condition, at nodes that solids reach; in the joint solver also at those that follow such nodes.
  *
  * A node that follows a wall's normal n holds n.(u - s) = k n.(b - s), with b the motion before it, s that of the wall and k <= 1, see walls.h. Unilateral it is
  *     n.(u - s) >= k n.(b - s),
@@ -7,7 +7,7 @@
  * follows. So u* and b* decide, in each walls_apply() anew; a map to the nearest point of a convex set is no longer than that to a plane in it, as dual.isph needs.
  * With several parents b* is their mean.
  *
- * Where it is let go a node has its normal motion itself; along the wall it still follows, see walls.h.
+ * Where it is let go a node has its normal motion itself; along the wall it still follows, see walls.h, unless it slips, see joint.h.
  * Liquid is held by the pressure before the wall, which its particles do not bear: see leaves() in walls_find.c. */
 #ifndef PBMPM_SRC_CONTACT_WALLS_UNILATERAL_H
 #define PBMPM_SRC_CONTACT_WALLS_UNILATERAL_H

@@ -16,11 +16,9 @@
  * A body that falls into water pushes it away before they meet. They share nodes, so a gap of half a cell would stay: in 3D a cube of six cells displaced a quarter
  * more than its volume. At nodes that solids reach liquid counts as loose by what is missing there, see integrate_tensionless(). So its pressure closes gaps.
  *
- * Nodes that solids reach meet obstacles by contacts, in all parts. Other nodes at walls obey walls.h in the dual, and
- * the primal leaves them where that takes them. A node behind a wall would follow those before it. If solids reach one
- * of those, it has contacts in the dual instead. Else the dual moved it with a body that the primal then stopped:
- * liquid below the body flowed through the floor, and pressed a quarter of what it should. Off the grid a part of that
- * remains.
+ * Walls lead nodes in all parts (walls.h). What no solid is near stays where the dual takes it. Near solids nodes follow in the primal's parts, too: see
+ * primal_follow.h. Where each part had its own law, liquid below a body flowed through the floor and pressed a quarter of what it should.
+ * They slip: they have their motion along the wall themselves, else liquid below a body would go along with it, and never flow out.
  * Solids are as stiff as the primal holds among liquid, see joint_stiffness_share(). */
 #ifndef PBMPM_SRC_SOLVERS_JOINT_H
 #define PBMPM_SRC_SOLVERS_JOINT_H

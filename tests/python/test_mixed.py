@@ -70,29 +70,28 @@ def test_clay_that_heavy_liquid_runs_into_gains_no_energy(iterations: int, modul
 LYING = {"stiff": (1e7, 2500.0, 0.0), "clay": (1e5, 1800.0, 0.05), "jelly": (1e5, 1500.0, 0.0)}
 
 
+@pytest.mark.parametrize("off", [0.0, 0.5, 0.8])
 @pytest.mark.parametrize("body", LYING)
-def test_water_rests_over_a_body_a_cell_above_the_floor(body: str) -> None:
-    """A pool of 20 cells holds a square of 8 cells, which starts with a cell of water below it. After 8 s all rest, at the level that both volumes make.
+def test_no_water_is_lost_below_a_body_a_cell_above_the_floor(body: str, off: float) -> None:
+    """A pool of 20 cells holds a square of 8 cells, which starts with a cell of water below it. After 8 s it has the level that both volumes make. The tank lies so many
+    cells off the grid.
 
-    The water below flowed through the floor: nodes behind the floor stayed where the pressures had led them, while the body held those before it. So it bore a quarter of
-    the pressure. The pool lost a third of a cell, and moved at 3 to 44 mm/s for ever (stiff body 44, clay 40). A pool alone may move at 10 mm/s.
+    Water below the body flowed through the floor: the parts of the joint solver had laws of walls of their own. On the grid the pool lost a third of a cell, off it up to
+    three. It loses up to 0.15 now; a quarter of a cell is little over one percent. The field cases `over_the_floor` judge how calm it is.
     """
     cell, width, depth, half = 0.025, 0.6, 0.5, 0.1
+    start = off * cell
     modulus, density, yields_at = LYING[body]
-    with pbmpm.World(2, cell, gravity=[0.0, -9.81], iterations=5, threads=1, domain=([0.0, 0.0], [width, 2.5 * depth])) as world:
+    with pbmpm.World(2, cell, gravity=[0.0, -9.81], iterations=5, threads=1, domain=([start, start], [start + width, start + 2.5 * depth])) as world:
         kind = pbmpm.Visco(density=density, young_modulus=modulus, yield_strain=yields_at) if yields_at else pbmpm.Elastic(density=density, young_modulus=modulus)
         water, solid = world.add_material(pbmpm.Liquid()), world.add_material(kind)
         places = np.stack(np.meshgrid(*(np.arange(cell / 4, size, cell / 2) for size in (width, depth)), indexing="ij"), -1).reshape(-1, 2)
         inside = (abs(places - (width / 2, half + cell)) < half).all(1)
-        world.add_particles(water, places[~inside])
-        world.add_particles(solid, places[inside])
-        square = []
-        for step in range(8 * 60):
+        world.add_particles(water, start + places[~inside])
+        world.add_particles(solid, start + places[inside])
+        for _ in range(8 * 60):
             world.step(1.0 / 60.0)
-            if step >= 5 * 60:
-                square.append((world.velocities.array() ** 2).sum(1).mean())
-        assert np.sqrt(np.mean(square)) < 0.01
-        assert 2 * world.positions.array()[:, 1].mean() > depth - 0.2 * cell
+        assert abs(2 * (world.positions.array()[:, 1].mean() - start) - depth) < 0.25 * cell
 
 
 def test_ten_iterations_calm_a_pool_around_a_heavy_block() -> None:
