@@ -64,7 +64,8 @@ void constraints_project(const ContactFrame *frame, float *displacement, int32_t
     for (int32_t block = begin; block < end; block++) {
         const BlockContacts list = contacts_of(frame, block);
         for (int sweep = 0; sweep < 2; sweep++) /* a corner between slanted surfaces */
-            for (uint32_t i = list.begin; i < list.end; i++) put_back(&list.contact[i], node_of(&list, i, displacement));
+            for (uint32_t i = list.begin; i < list.end; i++)
+                if (!list.contact[i].follows) put_back(&list.contact[i], node_of(&list, i, displacement));
     }
 }
 

@@ -5,7 +5,8 @@
 
 #include "contact/contacts.h"
 
-/* Moves displacements (K_NODE_WIDTH floats per node) to what the contacts allow; without friction. */
+/* Moves displacements (K_NODE_WIDTH floats per node) to what the contacts allow; without friction. Where nodes follow is known later: see
+ * constraints_lead(). */
 void constraints_project(const ContactFrame *frame, float *displacement, int32_t begin, int32_t end);
 
 /* Whether a contact holds or touches its node. */

@@ -18,7 +18,7 @@ typedef struct Contact {
     uint8_t group; /* of the body's contacts with about this normal, and */
     float limit;   /* the most that friction gives [mass times displacement], both while the primal solver works: see constraints_friction() */
     bool stays; /* the node goes where `surface` says, see joint.h; and */
-    bool follows; /* that is where others lead it, see primal_follow.h */
+    bool follows; /* that is where others lead it, see primal_followers.h */
     bool walled; /* the node is listed in walls, which books what it is given */
     float gap; /* how far the node may approach; 0 inside */
     float normal[3];

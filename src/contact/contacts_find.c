@@ -206,6 +206,7 @@ static uint32_t contacts_that_follow(const ContactFrame *frame, const double poi
         double unused[3];
         out[k] = contact_at(frame, o, point, node, scale[k] < 1.0f ? 0.0 : solid_distance(&o->start, point, unused) / frame->cell_size, along);
         out[k].follows = scale[k] < 1.0f;
+        if (out[k].friction == PBMPM_FRICTION_STICK) out[k].friction = PBMPM_FRICTION_SLIP; /* only the nearest face may stick, see walls_find.c */
         if (!reach_solid(frame, at)) out[k].coefficient = 0.0f;
         memcpy(out[k].wall, out[k].surface, sizeof out[k].wall);
     }

@@ -214,7 +214,10 @@ static void rub(void *context, int32_t begin, int32_t end)
         Four *u = &job->v.free[i];
         float v[3], impulse = 0.0f, along = 0.0f, size2 = 0.0f;
         if (n->coefficient == 0.0f) continue;
-        for (uint32_t l = n->link_begin; l < n->link_moving; l++) impulse += link[l].weight * job->v.moved[entry[link[l].from].follower][3] * (float)!node[entry[link[l].from].follower].slips;
+        for (uint32_t l = n->link_begin; l < n->link_moving; l++) {
+            const uint32_t follower = entry[link[l].from].follower;
+            if (!node[follower].slips) impulse += link[l].weight * job->v.moved[follower][3];
+        }
         if (n->slips) impulse = job->v.moved[i][3];
         const float trace = n->lump[0] + n->lump[3] + n->lump[5];
         if (!(impulse > 0.0f) || !(trace > 0.0f)) continue;

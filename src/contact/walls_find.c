@@ -729,7 +729,9 @@ static void bind_blocks(void *context, int32_t first, int32_t end)
 /* In the joint solver solids push rigid bodies by contacts alone: what the dual let those yield to is not what the primal then asks for. A box made a raft below it rock. */
 static bool has_contacts(const ContactFrame *frame, const Bound *bound)
 {
-    return frame->slips && bound->face[0].obstacle->body && reach_solid(frame, bound->node);
+    bool rigid = false;
+    for (int k = 0; k < bound->faces; k++) rigid = rigid || (bound->face[k].distance < 1.0 && bound->face[k].obstacle->body);
+    return frame->slips && rigid && reach_solid(frame, bound->node);
 }
 
 /* Finds the nodes at walls. Returns how many there are. */

@@ -76,7 +76,7 @@ pbmpm_result joint_find_contacts(World *world, const ContactFrame *contacts)
     frame.staying = &world->walls;
     exchange_contacts(world);
     pbmpm_result result = contacts_find(&frame, &world->memory, world->pool);
-    if (result == PBMPM_OK) result = primal_follow_list(world);
+    if (result == PBMPM_OK) result = primal_list_followers(world);
     exchange_contacts(world);
     return result;
 }
@@ -188,7 +188,7 @@ static void begin_primal(World *world)
 
 static void sketch(World *world, const ContactFrame *contacts)
 {
-    primal_follow_note(world);
+    primal_note_followers(world);
     over_blocks(world, start_solids);
     begin_primal(world);
     if (primal_sketch(world, contacts) > 0) over_blocks(world, leave_sketch);
@@ -239,7 +239,7 @@ void joint_solve(World *world, const ContactFrame *contacts)
     const StepRecord dual = world->record;
     memcpy(world->grid.node_base.data, world->joint.base.data, bytes);
     world->record.iterations_used = 0;
-    primal_follow_note(world);
+    primal_note_followers(world);
     begin_primal(world);
     wall_bodies_keep(&world->walls, contacts);
     walls_clear(&world->walls); /* contacts book what they give */

@@ -17,7 +17,7 @@
  * more than its volume. At nodes that solids reach liquid counts as loose by what is missing there, see integrate_tensionless(). So its pressure closes gaps.
  *
  * Walls lead nodes in all parts (walls.h). What no solid is near stays where the dual takes it. Near solids nodes follow in the primal's parts, too: see
- * primal_follow.h. Where each part had its own law, liquid below a body flowed through the floor and pressed a quarter of what it should.
+ * primal_followers.h. Where each part had its own law, liquid below a body flowed through the floor and pressed a quarter of what it should.
  * They slip: they have their motion along the wall themselves, else liquid below a body would go along with it, and never flow out.
  * Solids are as stiff as the primal holds among liquid, see joint_stiffness_share(). */
 #ifndef PBMPM_SRC_SOLVERS_JOINT_H

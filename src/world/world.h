@@ -149,8 +149,8 @@ typedef struct PrimalState {
     Array rigid, friction, moves;   /* per body, see primal_rigid.c, contact_constraints.h and primal_momentum.c */
     bool bounces;              /* a body of this substep, see primal_bounce.c */
     uint32_t yield_grips;      /* contacts with bodies that yield, see primal_yield.h */
-    Array follower;            /* see primal_follow.h */
-    uint32_t followers;
+    Array follower;            /* see primal_followers.h */
+    uint32_t followers, led_once;
     Array block_share;         /* see KernelArgs; with BDF2 */
     Array body_share;          /* the same per body */
     Multilevel multilevel;

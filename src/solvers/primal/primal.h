@@ -51,9 +51,9 @@ void primal_set_materials(World *world);
 pbmpm_result primal_prepare(World *world);
 void primal_free(World *world);
 
-/* Lists the nodes that follow others in the joint solver's parts, by its contacts: see primal_follow.h. Before a part: notes what they have themselves. */
-pbmpm_result primal_follow_list(World *world);
-void primal_follow_note(World *world);
+/* Lists the nodes that follow others in the joint solver's parts, by its contacts: see primal_followers.h. Before a part: notes what they have themselves. */
+pbmpm_result primal_list_followers(World *world);
+void primal_note_followers(World *world);
 
 /* The gradient of the energy where primal_sketch() or primal_solve() ended, per node. */
 const float *primal_gradient(const World *world);

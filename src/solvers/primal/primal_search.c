@@ -10,7 +10,7 @@
 
 #include "contact/contact_constraints.h"
 #include "solvers/passes.h"
-#include "solvers/primal/primal_follow.h"
+#include "solvers/primal/primal_followers.h"
 #include "solvers/primal/primal_solve.h"
 #include "solvers/primal/primal_yield.h"
 
@@ -145,7 +145,7 @@ static void evaluate_after(Primal *p, Loops *loops, Kernel *force)
 {
     World *world = p->world;
     const float *energy = world->primal.block_energy.data;
-    primal_add_follow(p, loops);
+    primal_add_followers(p, loops);
     solver_add_rows(loops, world, force, &world->args);
     solver_add_nodes(loops, world, world->kernels->force_nodes, &world->args, NULL);
     primal_add_pass(p, loops, finish_gradient);
