@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "calls.h"
+#include "scenes.h"
 
 void setUp(void)
 {
@@ -625,6 +626,39 @@ static void test_readers_get_right_answers(void)
     check_askers(use_host, &reversed);
 }
 
+/* ---- nodes at walls ---- */
+
+/* Jellies in the corners of a pool and on a ball: nodes there follow several faces and, at the ball, nodes that follow others. */
+static uint64_t hash_of_corners(int32_t thread_count)
+{
+    pbmpm_world_def def = default_world(3, 0.05f, 32768);
+    pbmpm_settings settings = default_settings();
+    settings.gravity[1] = -9.81f;
+    def.thread_count = thread_count;
+    def.domain_enabled = 1;
+    for (int a = 0; a < 3; a++) {
+        def.domain_min[a] = 0.013f;
+        def.domain_max[a] = a == 1 ? 1.6f : 0.813f;
+    }
+    const pbmpm_world_id world = create_world(&def);
+    OK(pbmpm_world_set_settings(world, &settings));
+    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID), jelly = create_material(world, PBMPM_ELASTIC);
+    create_collider(world, sphere_shape(0.41f, 0.05f, 0.41f, 0.21f), false);
+    fill_shape(world, water, box_shape(0.413f, 0.263f, 0.413f, 0.4f, 0.25f, 0.4f), (const float[3]){0, 0, 0});
+    fill_shape(world, jelly, box_shape(0.123f, 0.623f, 0.123f, 0.11f, 0.11f, 0.11f), (const float[3]){0, -2, 0});
+    fill_shape(world, jelly, box_shape(0.413f, 0.623f, 0.413f, 0.11f, 0.11f, 0.11f), (const float[3]){0, -2, 0});
+    for (int i = 0; i < 30; i++) OK(pbmpm_world_step(world, 1.0f / 60));
+    const uint64_t hash = world_hash(world);
+    OK(pbmpm_world_destroy(world));
+    return hash;
+}
+
+static void test_nodes_at_walls_do_not_depend_on_threads(void)
+{
+    const uint64_t right = hash_of_corners(1);
+    for (int32_t threads = 2; threads < 5; threads++) TEST_ASSERT_EQUAL_HEX64(right, hash_of_corners(threads));
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -638,5 +672,6 @@ int main(void)
     RUN_TEST(test_worlds_are_made_and_destroyed_at_the_same_time);
     RUN_TEST(test_a_world_may_change_its_thread);
     RUN_TEST(test_the_hosts_job_system_gives_the_same_results);
+    RUN_TEST(test_nodes_at_walls_do_not_depend_on_threads);
     return UNITY_END();
 }
