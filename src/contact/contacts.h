@@ -23,7 +23,7 @@ typedef struct Contact {
     float gap; /* how far the node may approach; 0 inside */
     float normal[3];
     float surface[3]; /* displacement of the obstacle's surface */
-    float wall[3];    /* that of the wall, at a node that stays */
+    float wall[3];    /* that of the wall, at a node that stays or follows */
 } Contact;
 
 /* A thing of the host's that is an obstacle, see colliders.h. */
@@ -58,7 +58,7 @@ typedef struct ContactFrame {
     float max_displacement; /* cells */
     double fall; /* see gravity_fall() */
     const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */
-    const struct Walls *staying; /* nodes that these list stay where they are taken, see joint.h; null: none */
+    const struct Walls *staying; /* these lead nodes in the primal's parts, see joint.h; null: none */
     const uint64_t *solid;       /* per node block: bit n, a solid reaches node n, see reach.h; null: nobody looked */
     bool liquid;                 /* there is nothing but liquid */
     bool viscous;                /* some of it has a viscosity, which walls hold: see wall_shear.h */

@@ -192,7 +192,7 @@ static uint32_t contacts_that_stay(const ContactFrame *frame, int32_t block, int
     return count + 1;
 }
 
-/* A node that solids reach, at walls that push and do not pull: a contact per face, with what the nodes before it lead it to for a surface. */
+/* A node near solids: a contact per face. The surface of those that hold it is where the nodes before it lead it. */
 static uint32_t contacts_that_follow(const ContactFrame *frame, const double point[3], int node, uint32_t at, Contact *out)
 {
     uint16_t obstacle[3];

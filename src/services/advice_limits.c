@@ -45,22 +45,6 @@ static void limits_of_edges(Adviser *adviser, uint32_t slot)
     tell_limit(adviser, slot, "a body's weight lies beyond its edge by less than the grid resolves: it tips too slowly, or stands");
 }
 
-/* Around a body that fell in, all the water of a narrow glass may heave at 60 Hz x 5. Ten iterations calm it, or half
- * the time step (docs/limits.md). Why: docs/method.md, "Why few steps are not enough". */
-static void limit_of_what_fell_in(Adviser *adviser, uint32_t slot)
-{
-    static const double CALM = 10.0;    /* iterations: see above */
-    static const double ROUNDED = 1e-6; /* share of a time step, which is given in single precision */
-    const double iterations = adviser->world->settings.iterations, shorter = 0.5 / REFERENCE_RATE;
-    const bool heaves = iterations < CALM && adviser->substep.dt > (1.0 + ROUNDED) * shorter;
-    pbmpm_advice advice = {.code = PBMPM_ADVICE_KNOWN_LIMIT, .material = adviser_id_of(adviser->world, slot)};
-    advice.text = "where a body fell into a liquid, the liquid goes on moving by centimetres per second";
-    if (heaves)
-        advice.text = "where a body fell into a liquid, the liquid goes on moving by centimetres per second, or heaves";
-    if (heaves) adviser_by_iterations(adviser, CALM / iterations, &advice);
-    adviser_give(adviser, advice);
-}
-
 /* Motion is one per node: what lies between two of them moves with both. */
 static void limits_of_bodies(Adviser *adviser, uint32_t slot)
 {
@@ -80,7 +64,7 @@ static void limits_of_bodies(Adviser *adviser, uint32_t slot)
     /* A jelly of 5e4 or 2e5 Pa and ten cells that is put afloat has the strain of hydrostatics, at 60 and 240 Hz; one that fell by 1 to 12 cells two to four times that. */
     if (wet && loose && heap->drop_least > FALLS_IN) tell_limit(adviser, slot, "a body that fell into a liquid stays more strained than one that was put there afloat");
     if (sinks(world, def) && !heap->lies) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above the floor, and slides; the level may be off");
-    if (wet && falls) limit_of_what_fell_in(adviser, slot);
+    if (wet && falls) tell_limit(adviser, slot, "where a body fell into a liquid, the liquid goes on moving by centimetres per second, or heaves");
 }
 
 void advise_known_limits(Adviser *adviser)

@@ -334,20 +334,3 @@ def test_a_pool_that_stirs_around_a_body_at_rest(rocks: bool) -> None:
         world.velocities = np.where(wet[:, None], stream, 0.02 if rocks else 0.0)
         told = [item for item in given(world, AdviceCode.POOL_STIRS) if item.came_true]
         assert [item.change for item in told] == ([] if rocks else [Change.NONE])
-
-
-def test_the_cure_of_a_pool_that_heaves_has_a_price() -> None:
-    """Where a body fell in, ten iterations calm it, or half the time step: then nothing is said to heave."""
-    with pbmpm.World(2, 0.05, gravity=(0, -9.81), domain=((0, 0), (1, 2)), threads=1) as world:
-        world.fill(pbmpm.Box((0.5, 0.3), (0.5, 0.3)), world.add_material(pbmpm.Liquid()))
-        world.fill(pbmpm.Box((0.5, 1.0), (0.2, 0.2)), world.add_material(pbmpm.Elastic(density=500)))
-
-        def said() -> pbmpm.Advice:
-            return next(item for item in world.advice(1 / 60) if "goes on moving" in item.text)
-
-        assert "heaves" in said().text and said().change is Change.ITERATIONS and said().value == 10 and said().price
-        for setting, value in (("iterations", 10), ("substeps", 2)):
-            old = getattr(world, setting)
-            setattr(world, setting, value)
-            assert "heaves" not in said().text and said().change is Change.NONE
-            setattr(world, setting, old)

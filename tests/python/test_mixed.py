@@ -73,11 +73,12 @@ LYING = {"stiff": (1e7, 2500.0, 0.0), "clay": (1e5, 1800.0, 0.05), "jelly": (1e5
 @pytest.mark.parametrize("off", [0.0, 0.5, 0.8])
 @pytest.mark.parametrize("body", LYING)
 def test_no_water_is_lost_below_a_body_a_cell_above_the_floor(body: str, off: float) -> None:
-    """A pool of 20 cells holds a square of 8 cells, which starts with a cell of water below it. After 8 s it has the level that both volumes make. The tank lies so many
-    cells off the grid.
+    """A pool of 20 cells holds a square of 8 cells, which starts with a cell of water below it. From the fifth second to the eighth it has the level that both volumes make.
+    The tank lies so many cells off the grid.
 
     Water below the body flowed through the floor: the parts of the joint solver had laws of walls of their own. On the grid the pool lost a third of a cell, off it up to
-    three. It loses up to 0.15 now; a quarter of a cell is little over one percent. The field cases `over_the_floor` judge how calm it is.
+    three. It loses up to 0.15 now; a quarter of a cell is little over one percent. A stiff body on the grid moves the pool at 3 to 6 mm/s; a pool
+    alone may move at 10. How calm others are the field cases `over_the_floor` judge.
     """
     cell, width, depth, half = 0.025, 0.6, 0.5, 0.1
     start = off * cell
@@ -89,9 +90,15 @@ def test_no_water_is_lost_below_a_body_a_cell_above_the_floor(body: str, off: fl
         inside = (abs(places - (width / 2, half + cell)) < half).all(1)
         world.add_particles(water, start + places[~inside])
         world.add_particles(solid, start + places[inside])
-        for _ in range(8 * 60):
+        levels, square = [], []
+        for step in range(8 * 60):
             world.step(1.0 / 60.0)
-        assert abs(2 * (world.positions.array()[:, 1].mean() - start) - depth) < 0.25 * cell
+            if step >= 5 * 60:
+                levels.append(2 * (world.positions.array()[:, 1].mean() - start))
+                square.append((world.velocities.array() ** 2).sum(1).mean())
+        assert abs(np.mean(levels) - depth) < 0.25 * cell
+        if body == "stiff" and off == 0.0:
+            assert np.sqrt(np.mean(square)) < 0.01
 
 
 def test_ten_iterations_calm_a_pool_around_a_heavy_block() -> None:

@@ -303,7 +303,7 @@ namespace Pbmpm
         /// <summary>before the first step: matter was put where there is other matter. Figure: share of the material that lies in
         /// overfull places; for liquids, of all liquids together</summary>
         Overlaps = 17,
-        /// <summary>what no setting mends, or only a part of it that `change` names; the text says what. No figure</summary>
+        /// <summary>what neither rate nor iterations mend; the text says what. No figure</summary>
         KnownLimit = 18,
         /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient. Or a liquid
         /// with kinematic_viscosity among walls none of which holds it, or a rigid body on such a floor. Figure: 0</summary>

@@ -33,7 +33,7 @@ class AdviceCode(Choice):
     COLLIDER_TOO_THIN = ffi.integer_const("PBMPM_ADVICE_COLLIDER_TOO_THIN")  #: thickness of an obstacle [cells]
     STEP_TOO_LONG = ffi.integer_const("PBMPM_ADVICE_STEP_TOO_LONG")  #: the longest way in a substep [cells]
     OVERLAPS = ffi.integer_const("PBMPM_ADVICE_OVERLAPS")  #: share of the matter that was put where there is other matter
-    KNOWN_LIMIT = ffi.integer_const("PBMPM_ADVICE_KNOWN_LIMIT")  #: what no setting mends, or only a part of it that `change` names
+    KNOWN_LIMIT = ffi.integer_const("PBMPM_ADVICE_KNOWN_LIMIT")  #: what neither rate nor iterations mend
     NO_FRICTION = ffi.integer_const("PBMPM_ADVICE_NO_FRICTION")  #: Coulomb coefficient of the domain's floor below sand; 0 of walls that a viscous liquid or a rigid body slips on
     EMITTER_OUTSIDE = ffi.integer_const("PBMPM_ADVICE_EMITTER_OUTSIDE")  #: how far beyond a wall of the domain an emitter stands [cells]
     EMITTER_REFUSED = ffi.integer_const("PBMPM_ADVICE_EMITTER_REFUSED")  #: came true: share of an emitter's particles that found no space
