@@ -12,6 +12,7 @@ typedef struct Follower {
     int parents;
     uint32_t parent[CORNERS_MAX];
     float weight[CORNERS_MAX];
+    float borne[CORNERS_MAX], all; /* weights of those that bear a part: not of parents that stay; and their sum */
     bool sticks;
     float scale;    /* k */
     Columns matrix; /* where it sticks: A, */
@@ -31,12 +32,24 @@ static int face_of(const Walls *walls, uint32_t node, const Contact *contact)
     return face;
 }
 
+/* Whether a parent is moved in the primal's parts: a solid reaches it, or it follows others itself. */
+static bool is_moved(const World *world, uint32_t node)
+{
+    const uint32_t cells = (uint32_t)world->grid.block_cells;
+    const uint64_t *solid = world->colliders.solid.data;
+    return (solid[node / cells] >> (node % cells) & 1) || walls_hold(&world->walls, node);
+}
+
 static Follower follower_of(const World *world, uint32_t contact, uint32_t node)
 {
     const Contact *of = (const Contact *)world->colliders.contact.data + contact;
     Follower f = {.contact = contact, .node = node};
     float scale[3];
     f.parents = walls_parents(&world->walls, node, f.parent, f.weight, &f.matrix);
+    for (int k = 0; k < f.parents; k++) {
+        f.borne[k] = is_moved(world, f.parent[k]) ? f.weight[k] : 0.0f;
+        f.all += f.borne[k];
+    }
     f.sticks = walls_scales(&world->walls, node, scale) == 0;
     f.scale = f.sticks ? 0.0f : scale[face_of(&world->walls, node, of)];
     f.square = f.scale * f.scale;
@@ -189,12 +202,13 @@ static void fold(void *context, int32_t begin, int32_t end)
         led_way(f, contact, p->node + at, p->best + at, way);
         for (size_t a = 0; a < 3; a++) {
             sum[1] -= (double)(p->gradient[at + a] * way[a]);
-            g[a] -= back[a];
+            g[a] -= f->all * back[a];
         }
         for (int k = 0; k < f->parents; k++) {
             float *to = p->force + (size_t)f->parent[k] * W;
-            for (size_t a = 0; a < 3; a++) to[a] += f->weight[k] * back[a];
-            to[3] += f->weight[k] * f->square * (g[3] + p->base[at + 3]);
+            if (f->borne[k] == 0.0f) continue;
+            for (size_t a = 0; a < 3; a++) to[a] += f->borne[k] * back[a];
+            if (f->square > 0.0f) to[3] += f->borne[k] * f->square * (g[3] + p->base[at + 3]); /* 0 of what has no bound is no number */
         }
     }
 }
