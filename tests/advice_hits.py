@@ -55,7 +55,7 @@ LIMITS = {
     "calm": "goes on|go on",
     "afloat": "in a liquid|film",
     "bounce": "bounces",
-    "modulus": "stays more strained",
+    "modulus": "stays squeezed",
 }
 """What the text of a KNOWN_LIMIT says if it speaks of a subject. That of SAND_NOT_HELD tells if it speaks of slopes or of what runs out."""
 

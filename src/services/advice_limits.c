@@ -62,8 +62,8 @@ static void limits_of_bodies(Adviser *adviser, uint32_t slot)
     if (heap->film > 0.5 && adviser_floats(world, def)) tell_limit(adviser, slot, "a film of liquid stays on a floating body, which floats deeper by the film's weight");
     if (wet && heap->narrow > 0.5) tell_limit(adviser, slot, "a body with less than five cells to the walls on both sides hangs in a liquid");
     /* A jelly of 5e4 or 2e5 Pa and ten cells that is put afloat has the strain of hydrostatics, at 60 and 240 Hz; one that fell by 1 to 12 cells two to four times that. */
-    if (wet && loose && heap->drop_least > FALLS_IN) tell_limit(adviser, slot, "a body that fell into a liquid stays more strained than one that was put there afloat");
-    if (sinks(world, def) && !heap->lies) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above the floor, and slides; the level may be off");
+    if (wet && loose && heap->drop_least > FALLS_IN) tell_limit(adviser, slot, "a body that fell into a liquid stays squeezed, by some percent more than one that was put there afloat");
+    if (sinks(world, def) && !heap->lies) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above the floor, and glides as on ice; the level errs by up to half a cell");
     if (wet && falls) tell_limit(adviser, slot, "where a body fell into a liquid, the liquid goes on moving by centimetres per second, or heaves");
 }
 

@@ -81,7 +81,7 @@ void advise_pool_stirs(Adviser *adviser)
         const double speed = stirring(adviser, slot, 1.0);
         if (!adviser_flows(&world->materials.def[slot]) || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL || speed <= CALM_SPEED) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)speed, .bound = (float)CALM_SPEED,
-                               .text = "a pool this deep goes on circling slowly at this rate"};
+                               .text = "a pool this deep goes on circling slowly: steps are too long for it"};
         double factor = 1.0;
         const double substeps = world->settings.substeps;
         while (stirring(adviser, slot, factor) > CALM_SPEED && factor * substeps <= PBMPM_MAX_SUBSTEPS) factor += 1.0 / substeps;
@@ -158,7 +158,7 @@ void advise_ball_stirs(Adviser *adviser)
         if (seen == 0.0 || !adviser_flows(def) || def->kinematic_viscosity > 0.0f || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL) continue;
         if (moves < seen && !adviser->survey.ball_dry) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)fmax(moves, seen), .bound = (float)CALM_SPEED,
-                               .text = "water that splashes over a ball goes on moving at this rate"};
+                               .text = "water that splashes over a ball goes on moving: steps are too long for it"};
         adviser_by_substeps(adviser, sqrt(fall / COARSE_FALL), &advice);
         adviser_give(adviser, advice);
     }

@@ -160,6 +160,7 @@ void advise_hit_damped(Adviser *adviser)
     static const double BOUND = 23.0; /* substeps of a contact: with them discs kept 0.62, see above */
     static const double FAST = 0.1;   /* [cells per substep] slower bodies do not hit, they settle */
     const World *world = adviser->world;
+    if (solver_holds_liquid(world)) return; /* there bodies do not bounce anyway: what they have to push away takes their speed */
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const Heap *heap = &adviser->survey.heap[slot];
         const bool fast = heap->speed * adviser->substep.dt > FAST * (double)world->def.cell_size;

@@ -47,19 +47,23 @@ static void test_what_is_round_rolls(void)
         }
 }
 
-/* Two discs, one of which moves: at 60 Hz they stay together. Where none moves nothing is told. */
+/* Two discs, one of which moves: at 60 Hz they stay together. Where none moves nothing is told, nor where the world has water. */
 static void test_bodies_that_hit_each_other(void)
 {
-    for (int moves = 0; moves < 2; moves++) {
+    static const struct {
+        bool moves, wet, told;
+    } cases[] = {{true, false, true}, {false, false, false}, {true, true, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_def def = default_world(2, 0.025f, 8192);
         const pbmpm_world_id world = create_world(&def);
-        const float speed[3] = {moves ? 1.0f : 0.0f, 0, 0};
+        const float speed[3] = {cases[i].moves ? 1.0f : 0.0f, 0, 0};
         for (int body = 0; body < 2; body++) {
             pbmpm_material_def soft = default_material(PBMPM_ELASTIC);
             soft.young_modulus = 1e5f;
             fill_shape(world, add_material(world, &soft), sphere_shape(body ? 0.3f : -0.3f, 0, 0, 0.2f), body ? STILL : speed);
         }
-        if (!moves) {
+        if (cases[i].wet) fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0, -0.4f, 0, 0.6f, 0.15f, 1), STILL);
+        if (!cases[i].told) {
             expect_none(world, PBMPM_ADVICE_BOUNCE_DAMPED);
             continue;
         }
