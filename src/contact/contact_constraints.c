@@ -25,14 +25,16 @@ static float excess_of(const Contact *contact, const float *u)
     return -contact->gap - along(relative, contact->normal);
 }
 
+static void put_on_surface(const Contact *contact, float *u)
+{
+    const float excess = excess_of(contact, u);
+    for (int a = 0; a < 3; a++) u[a] += excess * contact->normal[a];
+}
+
 static void put_back(const Contact *contact, float *u)
 {
-    if (is_held(contact)) {
-        for (int a = 0; a < 3; a++) u[a] = contact->surface[a];
-        return;
-    }
-    const float excess = excess_of(contact, u);
-    for (int a = 0; a < 3 && excess > 0.0f; a++) u[a] += excess * contact->normal[a];
+    if (is_held(contact)) memcpy(u, contact->surface, sizeof contact->surface);
+    else if (excess_of(contact, u) > 0.0f) put_on_surface(contact, u);
 }
 
 static void take_out(const Contact *contact, float *vector)
@@ -78,12 +80,8 @@ bool constraints_push(const Contact *contact, const float *u, const float *gradi
 
 void constraints_lead(const Contact *contact, float *u)
 {
-    if (!is_held(contact) && contact->active) {
-        const float excess = excess_of(contact, u);
-        for (int a = 0; a < 3; a++) u[a] += excess * contact->normal[a];
-        return;
-    }
-    put_back(contact, u);
+    if (!is_held(contact) && contact->active) put_on_surface(contact, u);
+    else put_back(contact, u);
 }
 
 void constraints_find_active(const ContactFrame *frame, const float *displacement, float *gradient, int32_t begin, int32_t end)

@@ -58,7 +58,7 @@ typedef struct ContactFrame {
     float max_displacement; /* cells */
     double fall; /* see gravity_fall() */
     const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */
-    const struct Walls *staying; /* these lead nodes in the primal's parts, see joint.h; null: none */
+    const struct Walls *leaders; /* these lead nodes in the primal's parts, see joint.h; null: none */
     const uint64_t *solid;       /* per node block: bit n, a solid reaches node n, see reach.h; null: nobody looked */
     bool liquid;                 /* there is nothing but liquid */
     bool viscous;                /* some of it has a viscosity, which walls hold: see wall_shear.h */

@@ -157,8 +157,8 @@ static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *aro
 /* Whether a node is led by walls: it stays where it was taken, or follows; see joint.h. A node before them that a solid reaches has contacts as elsewhere. */
 static bool is_led(const ContactFrame *frame, uint32_t at)
 {
-    if (!walls_list(frame->staying, at)) return false;
-    return !reach_solid(frame, at) || walls_follows(frame->staying, at);
+    if (!walls_list(frame->leaders, at)) return false;
+    return !reach_solid(frame, at) || walls_follows(frame->leaders, at);
 }
 
 /* Whether solids reach it, or a node that it follows: then it goes where that leads it. */
@@ -168,7 +168,7 @@ static bool follows_solid(const ContactFrame *frame, uint32_t at)
     float weight[CORNERS_MAX];
     Columns matrix;
     bool follows = reach_solid(frame, at);
-    for (int k = walls_parents(frame->staying, at, parent, weight, &matrix) - 1; k >= 0; k--) follows = follows || reach_solid(frame, parent[k]);
+    for (int k = walls_parents(frame->leaders, at, parent, weight, &matrix) - 1; k >= 0; k--) follows = follows || reach_solid(frame, parent[k]);
     return follows;
 }
 
@@ -178,7 +178,7 @@ static uint32_t contacts_that_stay(const ContactFrame *frame, int32_t block, int
     uint16_t obstacle[3] = {(uint16_t)frame->colliders->obstacle_count};
     const float *normal[3];
     const uint32_t at = (uint32_t)(block * frame->grid->block_cells + node);
-    const int faces = walls_faces(frame->staying, at, obstacle, normal);
+    const int faces = walls_faces(frame->leaders, at, obstacle, normal);
     uint32_t count = 0;
     for (int k = faces - 1; k > 0; k--, count++)
         if (out) {
@@ -187,7 +187,7 @@ static uint32_t contacts_that_stay(const ContactFrame *frame, int32_t block, int
         }
     if (out) {
         out[count] = (Contact){.node = (uint16_t)node, .obstacle = obstacle[0], .friction = PBMPM_FRICTION_STICK, .stays = true, .follows = follows_solid(frame, at)};
-        walls_motion(frame->staying, at, out[count].wall);
+        walls_motion(frame->leaders, at, out[count].wall);
     }
     return count + 1;
 }
@@ -198,8 +198,8 @@ static uint32_t contacts_that_follow(const ContactFrame *frame, const double poi
     uint16_t obstacle[3];
     const float *normal[3];
     float scale[3];
-    const int faces = walls_scales(frame->staying, at, scale);
-    walls_faces(frame->staying, at, obstacle, normal);
+    const int faces = walls_scales(frame->leaders, at, scale);
+    walls_faces(frame->leaders, at, obstacle, normal);
     for (int k = 0; k < faces && out; k++) {
         const Obstacle *o = &frame->colliders->obstacle[obstacle[k]];
         const double along[3] = {(double)normal[k][0], (double)normal[k][1], (double)normal[k][2]};
@@ -230,7 +230,7 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *all, 
         if (is_led(frame, (uint32_t)at)) {
             float unused[3];
             contacts_node_position(frame, block, i, point);
-            if (walls_scales(frame->staying, (uint32_t)at, unused) > 0) count += contacts_that_follow(frame, point, i, (uint32_t)at, out ? out + count : NULL);
+            if (walls_scales(frame->leaders, (uint32_t)at, unused) > 0) count += contacts_that_follow(frame, point, i, (uint32_t)at, out ? out + count : NULL);
             else count += contacts_that_stay(frame, block, i, out ? out + count : NULL);
             continue;
         }
@@ -307,7 +307,7 @@ static bool may_touch(const ContactFrame *frame, int32_t block)
     const size_t cells = (size_t)frame->grid->block_cells;
     const float *gap = frame->gap + (size_t)block * cells;
     float least = INFINITY;
-    if (frame->groups || frame->staying) return true; /* there it hangs on the node */
+    if (frame->groups || frame->leaders) return true; /* there it hangs on the node */
     for (size_t i = 0; i < cells; i++) least = gap[i] < least ? gap[i] : least;
     return least < INFINITY;
 }

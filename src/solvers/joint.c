@@ -73,7 +73,7 @@ pbmpm_result joint_find_contacts(World *world, const ContactFrame *contacts)
 {
     ContactFrame frame = *contacts;
     frame.walls = NULL;
-    frame.staying = &world->walls;
+    frame.leaders = &world->walls;
     exchange_contacts(world);
     pbmpm_result result = contacts_find(&frame, &world->memory, world->pool);
     if (result == PBMPM_OK) result = primal_list_followers(world);
