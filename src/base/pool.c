@@ -32,10 +32,11 @@ struct Pool {
     /* Own threads only. */
     pthread_mutex_t lock;
     pthread_cond_t work, done;
-    atomic_uint round;  /* counts loops; a worker runs each once */
-    atomic_int running; /* workers that have not finished the loop */
+    atomic_uint_fast64_t gate; /* see INSIDE */
     atomic_bool stop;
     int started;
+    int most;            /* workers that are worth a core; the others sleep */
+    int sleeping, calls; /* workers that sleep, and how many of them are called; behind the lock */
     pthread_t worker[];
 };
 
@@ -89,54 +90,91 @@ static void host_task(int32_t index, void *context)
     run_share(pool->loops, pool->spin_rounds);
 }
 
-/* Returns the number of the next loop, or the same number when the pool stops. */
-static unsigned wait_for_work(Pool *pool, unsigned seen)
+/* ---- Own threads ----
+ *
+ * A worker takes part in loops by going through their gate while it is open. The caller closes it when nothing is left to take, and waits for those inside alone. So it
+ * never waits for a worker that has yet to get a core, which takes milliseconds where other processes are busy. As many workers are awake as have cores and ranges;
+ * one that comes too late looks for the next loops, and sleeps. */
+static const uint64_t INSIDE = 1, OPEN = (uint64_t)1 << 16, ROUND = (uint64_t)1 << 32; /* how many are inside, whether it is open, and which loops these are */
+
+static bool may_enter(uint64_t gate, uint64_t seen) { return (gate & OPEN) != 0 && gate / ROUND != seen; }
+
+/* False: the gate is closed, or the worker was inside before. */
+static bool enter(Pool *pool, uint64_t *seen)
+{
+    uint64_t gate = atomic_load(&pool->gate);
+    do {
+        if (!may_enter(gate, *seen)) return false;
+    } while (!atomic_compare_exchange_weak(&pool->gate, &gate, gate + INSIDE));
+    *seen = gate / ROUND;
+    return true;
+}
+
+static void leave(Pool *pool)
+{
+    const uint64_t gate = atomic_fetch_sub(&pool->gate, INSIDE) - INSIDE;
+    if (gate % ROUND != 0) return; /* it is open, or others are inside */
+    pthread_mutex_lock(&pool->lock);
+    pthread_cond_signal(&pool->done);
+    pthread_mutex_unlock(&pool->lock);
+}
+
+static void wait_for_work(Pool *pool, uint64_t seen)
 {
     for (int i = 0; i < pool->spin_rounds; i++) {
-        if (atomic_load_explicit(&pool->round, memory_order_acquire) != seen) return seen + 1;
+        if (may_enter(atomic_load_explicit(&pool->gate, memory_order_relaxed), seen)) return;
         machine_pause();
     }
     pthread_mutex_lock(&pool->lock);
-    while (atomic_load(&pool->round) == seen && !atomic_load(&pool->stop)) pthread_cond_wait(&pool->work, &pool->lock);
+    if (!may_enter(atomic_load(&pool->gate), seen)) { /* it counted as awake until now */
+        pool->sleeping++;
+        while (pool->calls == 0 && !atomic_load(&pool->stop)) pthread_cond_wait(&pool->work, &pool->lock);
+        if (pool->calls > 0) pool->calls--;
+        pool->sleeping--;
+    }
     pthread_mutex_unlock(&pool->lock);
-    return atomic_load(&pool->round);
 }
 
 static void *worker_main(void *context)
 {
     Pool *pool = context;
-    unsigned seen = 0;
+    uint64_t seen = 0;
     while (!atomic_load(&pool->stop)) {
-        const unsigned round = wait_for_work(pool, seen);
-        if (round == seen) continue;
-        seen = round;
-        run_share(pool->loops, pool->spin_rounds);
-        if (atomic_fetch_sub(&pool->running, 1) == 1) {
-            pthread_mutex_lock(&pool->lock);
-            pthread_cond_signal(&pool->done);
-            pthread_mutex_unlock(&pool->lock);
+        if (!enter(pool, &seen)) {
+            wait_for_work(pool, seen);
+            continue;
         }
+        run_share(pool->loops, pool->spin_rounds);
+        leave(pool);
     }
     return NULL;
 }
 
-static void start_round(Pool *pool)
+static void open_gate(Pool *pool, int useful)
 {
-    atomic_store(&pool->running, pool->started);
+    const int most = useful < pool->most ? useful : pool->most;
+    const uint64_t gate = atomic_load(&pool->gate);
+    ASSERT(gate % ROUND == 0);
+    atomic_store(&pool->gate, gate + ROUND + OPEN);
     pthread_mutex_lock(&pool->lock);
-    atomic_fetch_add(&pool->round, 1);
-    pthread_cond_broadcast(&pool->work);
+    for (int awake = pool->started - pool->sleeping + pool->calls; awake < most; awake++) {
+        pool->calls++;
+        pthread_cond_signal(&pool->work);
+    }
     pthread_mutex_unlock(&pool->lock);
 }
 
-static void finish_round(Pool *pool)
+static bool is_empty(Pool *pool) { return atomic_load_explicit(&pool->gate, memory_order_acquire) % ROUND == 0; }
+
+static void close_gate(Pool *pool)
 {
+    atomic_fetch_and(&pool->gate, ~OPEN);
     for (int i = 0; i < pool->spin_rounds; i++) {
-        if (atomic_load_explicit(&pool->running, memory_order_acquire) == 0) return;
+        if (is_empty(pool)) return;
         machine_pause();
     }
     pthread_mutex_lock(&pool->lock);
-    while (atomic_load(&pool->running) > 0) pthread_cond_wait(&pool->done, &pool->lock);
+    while (!is_empty(pool)) pthread_cond_wait(&pool->done, &pool->lock);
     pthread_mutex_unlock(&pool->lock);
 }
 
@@ -147,7 +185,9 @@ pbmpm_result pool_create(Memory *memory, int threads, const pbmpm_task_hooks *ho
     if (!pool) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the thread pool");
     pool->threads = threads;
     if (hooks) pool->hooks = *hooks;
-    pool->spin_rounds = threads <= cpu_core_count() ? SPIN_ROUNDS : 0; /* with more threads than cores spinning steals time */
+    const int cores = cpu_core_count();
+    pool->spin_rounds = cores > 1 ? SPIN_ROUNDS : 0; /* with more threads than cores spinning steals time */
+    pool->most = threads <= cores ? threads - 1 : cores > 1 ? cores - 1 : 1;
     pthread_mutex_init(&pool->lock, NULL);
     pthread_cond_init(&pool->work, NULL);
     pthread_cond_init(&pool->done, NULL);
@@ -198,9 +238,9 @@ static void share_with_host(Pool *pool)
 
 static void share_with_workers(Pool *pool)
 {
-    start_round(pool);
+    open_gate(pool, pool->loops->ranges - 1);
     run_share(pool->loops, pool->spin_rounds);
-    finish_round(pool);
+    close_gate(pool);
 }
 
 /* Whether nothing of them is left to do. */
@@ -215,7 +255,6 @@ static bool are_done(Loops *loops)
 static bool fork_join(Pool *pool, Loops *loops)
 {
     if (atomic_exchange(&pool->taken, true)) return false;
-    ASSERT(atomic_load(&pool->running) == 0);
     pool->loops = loops;
     if (pool->hooks.enqueue)
         share_with_host(pool);
@@ -255,7 +294,7 @@ void pool_for(Pool *pool, int32_t count, int32_t grain, RangeTask *task, void *c
 void loops_open(Loops *loops, Pool *pool)
 {
     loops->pool = pool;
-    loops->count = 0;
+    loops->count = loops->ranges = 0;
     loops->ns = 0;
 }
 
@@ -271,6 +310,8 @@ void loops_put(Loops *loops, Span span, RangeTask *task, const void *context, si
     atomic_init(&loop->next, 0);
     atomic_init(&loop->left, span.count);
     loops->ns += span.ns;
+    const int ranges = (int)(((int64_t)span.count + span.grain - 1) / span.grain);
+    if (ranges > loops->ranges) loops->ranges = ranges;
 }
 
 void loops_run(Loops *loops)

@@ -58,6 +58,7 @@ typedef struct Loop {
 typedef struct Loops {
     Pool *pool;
     int count;
+    int ranges; /* of the loop that has most */
     int64_t ns;
     Loop loop[LOOPS_MAX];
 } Loops;

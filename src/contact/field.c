@@ -6,7 +6,7 @@
 #include "base/vector.h"
 #include "shape/tangent_planes.h"
 
-/* How far before a face [cells] the space must be open. By trial. */
+/* How far before an exact face [cells] the space must be open. By trial. */
 static const double BEFORE = 0.1;
 /* Surfaces that are meant to meet differ by rounding: what is nearer than this [cells] is on a surface. And what is farther off than that is clear of it. */
 static const double ON_SURFACE = 1e-3, CLEAR_OF = 0.01;
@@ -62,10 +62,29 @@ double field_distance(const Near *near, const double point[3])
     return least / near->cell_size;
 }
 
+/* Half a step of the grid of a baked solid [cells]: by so much its edges are rounded. 0 for other solids, which are exact. */
+static double rounding_of(const Near *near, const Obstacle *o)
+{
+    const DistanceGrid *grid = field_solid(near, o)->grid;
+    return grid ? 0.5 * grid->spacing / near->cell_size : 0.0;
+}
+
 static bool is_open(const Near *near, const double point[3])
 {
     for (int i = 0; i < near->count; i++)
         if (solid_gap(field_solid(near, near->obstacle[i]), point) <= ON_SURFACE * near->cell_size) return false;
+    return true;
+}
+
+/* Whether the space is open before a place where these faces meet. A baked solid is asked farther off: before its rounded edge, which is flush with another obstacle, the
+ * space seems to be open. */
+static bool is_open_before(const Near *near, const double place[3], const Face *const *face, int count)
+{
+    for (int i = 0; i < near->count; i++) {
+        double before[3] = {place[0], place[1], place[2]};
+        for (int k = 0; k < count; k++) ahead(near, before, BEFORE + 2.0 * rounding_of(near, near->obstacle[i]), face[k]->normal, before);
+        if (solid_gap(field_solid(near, near->obstacle[i]), before) <= ON_SURFACE * near->cell_size) return false;
+    }
     return true;
 }
 
@@ -119,6 +138,30 @@ static int box_faces(const Near *near, const Obstacle *o, const double point[3],
     return count;
 }
 
+static bool is_known(const Face *face, int count, const double normal[3])
+{
+    bool known = false;
+    for (int i = 0; i < count; i++) known = known || dot3(face[i].normal, normal) > SAME_DIRECTION;
+    return known;
+}
+
+/* The nearest face of a baked solid, and the planes of those that are nearest a reach away in each direction: where the nearest lies on a floor, another one bounds
+ * the space. */
+static int baked_faces(const Near *near, const Obstacle *o, const double point[3], double reach, Face *face, int room)
+{
+    static const double STEPS[3] = {0.0, -1.0, 1.0};
+    const int ways = near->dimension == 3 ? 27 : 9;
+    int count = 0;
+    for (int way = 0; way < ways && count < room; way++) {
+        const double offset[3] = {reach * STEPS[way % 3], reach * STEPS[way / 3 % 3], reach * STEPS[way / 9]};
+        double place[3], normal[3];
+        ahead(near, point, 1.0, offset, place);
+        const double distance = solid_distance(field_solid(near, o), place, normal) / near->cell_size - dot3(normal, offset);
+        if (fabs(distance) <= reach && !is_known(face, count, normal)) face[count++] = face_at(near, o, point, distance, normal);
+    }
+    return count;
+}
+
 static int faces_around(const Near *near, const double point[3], double reach, Face *face)
 {
     int count = 0;
@@ -129,6 +172,8 @@ static int faces_around(const Near *near, const double point[3], double reach, F
         if (distance > reach) continue;
         if (field_solid(near, o)->kind == PBMPM_BOX)
             count += box_faces(near, o, point, reach, face + count, CANDIDATES - count);
+        else if (field_solid(near, o)->grid)
+            count += baked_faces(near, o, point, reach, face + count, CANDIDATES - count);
         else if (fabs(distance) <= reach && count < CANDIDATES)
             face[count++] = face_at(near, o, point, distance, normal);
     }
@@ -139,15 +184,13 @@ static int faces_around(const Near *near, const double point[3], double reach, F
 static bool is_on_face(const Near *near, const Face *face, const double place[3])
 {
     const Solid *s = field_solid(near, face->obstacle);
-    return s->kind != PBMPM_BOX || fabs(solid_gap(s, place)) <= 1e-3 * near->cell_size;
+    const bool flat = s->kind == PBMPM_BOX || s->grid;
+    return !flat || fabs(solid_gap(s, place)) <= fmax(ON_SURFACE, rounding_of(near, face->obstacle)) * near->cell_size;
 }
 
 static bool bounds_space(const Near *near, const Face *face)
 {
-    double before[3];
-    if (!is_on_face(near, face, face->foot)) return false;
-    ahead(near, face->foot, BEFORE, face->normal, before);
-    return is_open(near, before);
+    return is_on_face(near, face, face->foot) && is_open_before(near, face->foot, &face, 1);
 }
 
 /* ---- Inside: the shallowest way out ---- */
@@ -178,15 +221,12 @@ static bool meet(const Face *const *face, int count, double place[3])
 /* A hollow edge or corner of these faces; its distance from the point, or infinity where the faces do not meet in the open. */
 static double corner_distance(const Near *near, const double point[3], const Face *const *face, int count)
 {
-    double way[3], place[3], before[3];
+    double way[3], place[3];
     if (!meet(face, count, way)) return INFINITY;
     ahead(near, point, 1.0, way, place);
-    memcpy(before, place, sizeof before);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; i++)
         if (!is_on_face(near, face[i], place)) return INFINITY;
-        ahead(near, before, BEFORE, face[i]->normal, before);
-    }
-    return is_open(near, before) ? sqrt(dot3(way, way)) : INFINITY;
+    return is_open_before(near, place, face, count) ? sqrt(dot3(way, way)) : INFINITY;
 }
 
 static int faces_inside(const Near *near, const double point[3], Face face[FIELD_FACES])
@@ -237,10 +277,7 @@ static bool is_exposed(const Near *near, const Face *face, const double point[3]
     const Solid *s = field_solid(near, face->obstacle);
     double before[3], local[3];
     int outside = 0;
-    if (face->distance > BEFORE) {
-        ahead(near, face->foot, BEFORE, face->normal, before);
-        if (!is_open(near, before)) return false;
-    }
+    if ((face->distance > BEFORE || s->grid) && !is_open_before(near, face->foot, &face, 1)) return false;
     if (s->kind != PBMPM_BOX) return true;
     along_axes(s, point, local);
     for (int a = 0; a < s->dimension; a++) outside += fabs(local[a]) > s->half_extents[a] + ON_SURFACE * near->cell_size;
@@ -277,13 +314,6 @@ static int add_face(Face face[FIELD_FACES], int count, const Face *seen, int mos
     return count;
 }
 
-/* Half a step of the grid of a baked solid [cells]: by so much its edges are rounded. 0 for other solids, which are exact. */
-static double rounding_of(const Near *near, const Obstacle *o)
-{
-    const DistanceGrid *grid = field_solid(near, o)->grid;
-    return grid ? 0.5 * grid->spacing / near->cell_size : 0.0;
-}
-
 /* The nearest face of a baked solid, and those of its hollows. Where a point is as near to two of these, the grid of distances has a normal between them, and its foot is on
  * no surface: then it is left out. */
 static int add_baked(const Near *near, const Face *first, const double point[3], double reach, Face face[FIELD_FACES], int count, int most)
@@ -302,6 +332,16 @@ static int add_baked(const Near *near, const Face *first, const double point[3],
     return count;
 }
 
+/* Where the nearest place of a baked solid is the edge that it stands on, its other faces that bound the space. */
+static int add_above_edge(const Near *near, const Obstacle *o, const double point[3], double reach, Face face[FIELD_FACES], int count)
+{
+    Face all[CANDIDATES];
+    const int candidates = baked_faces(near, o, point, reach, all, CANDIDATES);
+    for (int i = 0; i < candidates; i++)
+        if (bounds_space(near, &all[i])) count = add_face(face, count, &all[i], near->dimension);
+    return count;
+}
+
 /* The planes that are seen from a point in the open. The foot on one may lie behind another: then their edge has to be open. */
 static int faces_seen(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
 {
@@ -313,11 +353,13 @@ static int faces_seen(const Near *near, const double point[3], double reach, Fac
         const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
         if (distance > reach) continue;
         const Face seen = face_at(near, o, point, distance, normal);
+        const bool baked = field_solid(near, o)->grid != NULL;
         if (!is_exposed(near, &seen, point)) {
+            if (baked) count = add_above_edge(near, o, point, reach, face, count);
             if (hides < CANDIDATES) hidden[hides++] = seen;
             continue;
         }
-        if (field_solid(near, o)->grid)
+        if (baked)
             count = add_baked(near, &seen, point, reach, face, count, near->dimension);
         else
             count = add_face(face, count, &seen, near->dimension);
@@ -326,6 +368,7 @@ static int faces_seen(const Near *near, const double point[3], double reach, Fac
     for (int i = 0; i < hides; i++)
         for (int k = 0; k < seen; k++) {
             const Face *edge[2] = {&hidden[i], &face[k]};
+            if (hidden[i].obstacle == face[k].obstacle) continue;
             if (dot3(hidden[i].normal, face[k].normal) >= 0.0 && corner_distance(near, point, edge, 2) <= reach) count = add_face(face, count, &hidden[i], near->dimension);
         }
     return count;

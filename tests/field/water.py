@@ -321,6 +321,57 @@ def block_wall(run: Run, offset: float) -> None:
 
 
 @case(
+    on_domain=dict(floor="domain"),
+    on_box=dict(floor="box"),
+    off_grid=dict(floor="box", shift=0.4),
+    turned_20=dict(floor="box", angle=20.0),
+    on_mesh=dict(floor="mesh"),
+    on_mesh_off=dict(floor="mesh", shift=0.4),
+    coarse=dict(floor="box", resolution=24),
+    on_box_3d=dict(floor="box", dimension=3),
+)
+def mesh_wall(run: Run, floor: str, shift: float = 0.0, angle: float = 0.0, dimension: int = 2, resolution: int = 64) -> None:
+    """A wall of 4 cells that is baked from a mesh, and stands flush on a floor, holds a pool on its one side."""
+    at, thick, deep = (0.8, 0.2, DEPTH) if dimension == 2 else (0.4, 0.2, 0.3)
+    frame, wide = Frame(dimension, angle, shift * CELL), 2 * at + thick
+    domain = ([0.0] * dimension, [wide, 1.5] + [at] * (dimension - 2)) if floor == "domain" else None
+    with run.world(dimension, CELL, frame.gravity, domain=domain) as world:
+
+        def bake(low: Any, high: Any, friction: Any) -> None:
+            solid = world.load_solid(bake_mesh(*_block(low, high), resolution=resolution))
+            world.add_collider(Baked(frame.out([0.0] * dimension).tolist(), solid, rotation=frame.rotation), friction=friction)
+
+        if domain is None:
+            tank(world, frame, at if dimension == 3 else wide, 1.5, "boxes", floor=False)
+        low, high = [-0.5, -0.5] + [-0.5] * (dimension - 2), [wide + 0.5, 0.0] + [at + 0.5] * (dimension - 2)
+        if floor == "box":
+            world.add_collider(frame.box(low, high), friction=Friction.SLIP)
+        elif floor == "mesh":
+            bake(low, high, Friction.SLIP)
+        bake([at, 0.0, -0.1][:dimension], [at + thick, 1.0, at + 0.1][:dimension], Friction.SLIP)
+        pool(world, frame, [0.0] * dimension, [at, deep, at][:dimension], Liquid())
+        run.steps(world, 6 if dimension == 2 else 3)
+        p = frame.positions(world)
+        run.check("share of water behind the wall or below", ((p[:, 0] > at + CELL) | (p[:, 1] < -CELL / 2)).mean(), 0, 0.001, why="a wall on a floor does not leak")
+        run.check("rms speed", rms(world), 0, 0.01, "m/s", why=REST)
+
+
+def _block(low: Any, high: Any) -> tuple[Any, Any]:
+    """Corners and faces of a box, which face outwards: edges in 2D, triangles in 3D."""
+    d = len(low)
+    if d == 2:
+        return [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]], [[0, 1], [1, 2], [2, 3], [3, 0]]
+    points = [[(low, high)[k >> a & 1][a] for a in range(3)] for k in range(8)]
+    faces: list[list[int]] = []
+    for axis in range(3):
+        one, two = (1 << a for a in range(3) if a != axis)
+        for end in (0, 1):
+            first = end << axis
+            faces += _facing(points, [first, first | one, first | one | two, first | two], [(2 * end - 1) if a == axis else 0 for a in range(3)])
+    return points, faces
+
+
+@case(
     two_cells=dict(cells=2.0, shift=0.0),
     two_cells_off=dict(cells=2.0, shift=0.5),
     one_cell=dict(cells=1.0, shift=0.0),
