@@ -39,6 +39,7 @@ static const struct {
     {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", advise_rigid_on_sand},
     {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", advise_rigid_enters},
     {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", advise_rigid_turns},
+    {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", advise_rigid_stays_down},
     {PBMPM_ADVICE_NO_FRICTION, "PBMPM_ADVICE_NO_FRICTION", "", advise_no_friction},
     {PBMPM_ADVICE_NO_FRICTION, "PBMPM_ADVICE_NO_FRICTION", "", advise_slips},
     {PBMPM_ADVICE_NO_FRICTION, "PBMPM_ADVICE_NO_FRICTION", "", advise_rigid_glides},

@@ -48,8 +48,7 @@ static double mass_of(const World *world, const Collider *collider)
 static bool touches(const World *world, uint32_t slot, const Collider *collider)
 {
     const Particles *p = &world->particles;
-    Solid solid = solid_of(&collider->shape, p->dimension);
-    solid.grid = collider->grid;
+    const Solid solid = solid_where(world, collider);
     for (uint32_t row = 0; row < p->count; row++) {
         double at[3] = {0};
         if (p->material[row] != slot) continue;
@@ -195,10 +194,9 @@ void advise_rigid_turns(Adviser *adviser)
 
 /* ---- On the domain's floor ---- */
 
-/* Whether it lies on the wall where gravity leads. Walls stop it where it touches, but for rounding. */
-static bool lies_on_floor(const World *world, const Collider *collider)
+/* How far a body is from the wall where gravity leads [cells]. */
+static double gap_to_floor(const World *world, const Collider *collider)
 {
-    static const double ROUNDING = 1e-3; /* cells: of places of 1e4 cells in floats */
     const Solid solid = solid_where(world, collider);
     double low[3], high[3], down[3], gap = INFINITY, most = 0.0;
     solid_bounds(&solid, low, high);
@@ -208,7 +206,14 @@ static bool lies_on_floor(const World *world, const Collider *collider)
         most = fabs(down[a]);
         gap = down[a] > 0.0 ? world->domain.high[a] - high[a] : low[a] - world->domain.low[a];
     }
-    return fabs(gap) < ROUNDING * (double)world->def.cell_size;
+    return gap / (double)world->def.cell_size;
+}
+
+/* Walls stop a body where it touches, but for rounding. */
+static bool lies_on_floor(const World *world, const Collider *collider)
+{
+    static const double ROUNDING = 1e-3; /* cells: of places of 1e4 cells in floats */
+    return fabs(gap_to_floor(world, collider)) < ROUNDING;
 }
 
 void advise_rigid_glides(Adviser *adviser)
@@ -220,6 +225,31 @@ void advise_rigid_glides(Adviser *adviser)
         if (!body || rigid_friction(&body->def, floor) > 0.0 || !lies_on_floor(world, body)) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_NO_FRICTION, .collider = {place, body->generation},
                                              .text = "a rigid body glides without end on the domain's floor: there is no friction between them"});
+    }
+}
+
+/* [kg/m^3] of the densest liquid of the world; 0: it has none. */
+static double densest_liquid(const World *world)
+{
+    double densest = 0.0;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (adviser_present(world, slot) && adviser_flows(&world->materials.def[slot])) densest = fmax(densest, (double)world->materials.def[slot].density);
+    return densest;
+}
+
+/* The grid shows no liquid in a narrow gap, and what stands above presses the body down. A crate of 400 kg/m^3 that starts 0 or half a cell above the floor of a room that fills stays there
+ * for ever, from one cell on it floats. */
+void advise_rigid_stays_down(Adviser *adviser)
+{
+    static const double SEES = 1.0; /* [cells] see above */
+    const World *world = adviser->world;
+    for (uint32_t place = 0; adviser_wall_below(world) && place < world->colliders.used; place++) {
+        const Collider *body = body_at(world, place);
+        if (!body || !moves(body) || gap_to_floor(world, body) >= SEES) continue;
+        const Solid solid = solid_where(world, body);
+        if (mass_of(world, body) >= densest_liquid(world) * solid_volume(&solid)) continue;
+        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_KNOWN_LIMIT, .collider = {place, body->generation},
+                                             .text = "a light rigid body on the domain's floor stays there when liquid comes: from a cell above the floor on it floats"});
     }
 }
 

@@ -58,6 +58,7 @@ void advise_rigid_on_sand(Adviser *adviser);
 void advise_rigid_sinks(Adviser *adviser);
 void advise_rigid_turns(Adviser *adviser);
 void advise_rigid_glides(Adviser *adviser);
+void advise_rigid_stays_down(Adviser *adviser);
 void advise_rigid_enters(Adviser *adviser);
 
 /* advice_limits.c: what no setting mends */

@@ -303,6 +303,27 @@ static void test_a_rigid_ball_that_turns_by_itself(void)
     }
 }
 
+/* A crate in a pool, by its distance from the floor of the domain and its density. */
+static void test_a_light_rigid_body_that_stays_down(void)
+{
+    static const struct {
+        float above, density;
+        bool told;
+    } cases[] = {{0.0f, 400, true}, {0.025f, 400, true}, {0.1f, 400, false}, {0.0f, 1500, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        pbmpm_world_def def = default_world(2, 0.05f, 20000);
+        def.domain_enabled = 1;
+        def.domain_max[0] = def.domain_max[1] = 2;
+        const pbmpm_world_id world = create_world(&def);
+        const pbmpm_shape crate = box_shape(1, cases[i].above + 0.2f, 0, 0.2f, 0.2f, 1);
+        set_gravity(world, 0, -9.81f, 0);
+        create_body(world, &crate, cases[i].density * 0.16f, true);
+        fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.3f, 0.1f, 0, 0.3f, 0.1f, 1), STILL);
+        ask(world);
+        TEST_ASSERT_EQUAL_INT(cases[i].told, tells("stays there when liquid comes"));
+    }
+}
+
 /* ---- what came true ---- */
 
 /* Twice as many particles as there is room for. */
@@ -355,6 +376,7 @@ int main(void)
     RUN_TEST(test_a_film_on_what_floats);
     RUN_TEST(test_a_rigid_body_that_may_sink);
     RUN_TEST(test_a_rigid_ball_that_turns_by_itself);
+    RUN_TEST(test_a_light_rigid_body_that_stays_down);
     RUN_TEST(test_volume_that_is_lost);
     RUN_TEST(test_volume_that_chance_may_have_lost);
     return UNITY_END();

@@ -7,6 +7,7 @@
 
 #include "books.h"
 #include "host.h"
+#include "base/cpu.h"
 #include "base/pool.h"
 #include "random.h"
 
@@ -109,6 +110,45 @@ static void test_serial_mode_stays_on_the_caller(void)
     callers.slow = true;
     for (int round = 0; round < 1000 && atomic_load(&callers.others) == 0; round++) pool_for(pool, 10, 1, note_caller, &callers);
     TEST_ASSERT_TRUE(atomic_load(&callers.others) > 0);
+    pool_destroy(&memory, pool, true);
+    books_expect_closed(&books, &memory);
+}
+
+enum { CROWD = 64 };
+
+/* Counts the threads that come: each notes the last loop that it came to. */
+typedef struct Crowd {
+    atomic_int round, came;
+} Crowd;
+
+static void count_threads(void *context, int32_t begin, int32_t end)
+{
+    static _Thread_local int last;
+    Crowd *crowd = context;
+    const int round = atomic_load(&crowd->round);
+    (void)begin;
+    (void)end;
+    if (last != round) atomic_fetch_add(&crowd->came, 1);
+    last = round;
+    nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL); /* time for all to come */
+}
+
+/* More would only take turns with the others. Those that were just started are awake for a while. */
+static void test_no_more_threads_come_than_have_cores(void)
+{
+    const int cores = cpu_core_count(), most = cores > 2 ? cores : 2;
+    Books books;
+    Memory memory = books_memory(&books, 0);
+    Pool *pool = open_pool(&memory, CROWD, NULL);
+    Crowd crowd = {0};
+    int least = CROWD;
+    for (int round = 0; round < 100 && least > most; round++) {
+        atomic_store(&crowd.came, 0);
+        atomic_fetch_add(&crowd.round, 1);
+        pool_for(pool, CROWD, 1, count_threads, &crowd);
+        if (atomic_load(&crowd.came) < least) least = atomic_load(&crowd.came);
+    }
+    if (cores < CROWD / 2) TEST_ASSERT_TRUE(least <= most);
     pool_destroy(&memory, pool, true);
     books_expect_closed(&books, &memory);
 }
@@ -345,6 +385,7 @@ int main(void)
     RUN_TEST(test_every_item_once);
     RUN_TEST(test_nothing_to_do);
     RUN_TEST(test_serial_mode_stays_on_the_caller);
+    RUN_TEST(test_no_more_threads_come_than_have_cores);
     RUN_TEST(test_floating_point_mode_of_parallel_loops);
     RUN_TEST(test_hooks_do_the_work);
     RUN_TEST(test_loops_follow_one_another);
