@@ -47,6 +47,7 @@ WRONG_WORDS: dict[str, tuple[Callable[[Any], None], str]] = {
     "beginning": (lambda data: data.update(kill={"min": [0, 0]}), "kill: unknown field; did you mean 'kill_bounds'?"),
     "kind": (lambda data: data["materials"]["water"].update(kind="liqid"), "did you mean 'liquid'?"),
     "parameter": (lambda data: data["materials"]["water"].update(denisty=3), "materials.water.denisty: unknown field; did you mean 'density'?"),
+    "order of parts": (lambda data: data["materials"]["water"].update(viscosity_kinematic=3), "viscosity_kinematic: unknown field; did you mean 'kinematic_viscosity'?"),
     "material": (lambda data: data["fills"][0].update(material="watr"), "no material is called 'watr' (there are: water); did you mean 'water'?"),
     "effect": (lambda data: data.update(effects=["emiters"]), "did you mean 'emitters'?"),
     "extents": (lambda data: data["fills"][0]["shape"].update(half_extents=0.2), "fills[0].shape.half_extents: needs 2 numbers in brackets, one per axis"),

@@ -11,10 +11,14 @@ from typing import Any, ClassVar, NoReturn, TypeVar
 Anything = TypeVar("Anything")
 
 
-def nearest(name: str, names: Iterable[str]) -> str:
-    """The end of a message about a name that does not exist: which of some others it may stand for, if any is like it."""
-    alike = difflib.get_close_matches(name, names, 1)
-    return f"; did you mean '{alike[0]}'?" if alike else ""
+def nearest(name: object, names: Iterable[str]) -> str:
+    """The end of a message about a name that does not exist: which of some others it may stand for, if any is like it. First come those of the same parts
+    in another order, then those that begin with its parts."""
+    written, known = str(name).lower(), {other.lower(): other for other in names}
+    turned = [other for other in known if sorted(other.split("_")) == sorted(written.split("_"))]
+    longer = [other for other in known if other.startswith(f"{written}_")]
+    alike = turned or difflib.get_close_matches(written, longer, 1, cutoff=0.0) or difflib.get_close_matches(written, known, 1)
+    return f"; did you mean '{known[alike[0]]}'?" if alike else ""
 
 
 def tells_names(kind: type[Anything]) -> type[Anything]:

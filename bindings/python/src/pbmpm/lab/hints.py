@@ -7,21 +7,13 @@ import glob
 from collections.abc import Iterable
 from pathlib import Path
 
-
-def did_you_mean(word: object, words: Iterable[str]) -> str:
-    """A question to put behind a message, or nothing where no word is like it. Words that begin with it come first."""
-    written, known_words = str(word).lower(), [known.lower() for known in words]
-    longer = [known for known in known_words if written and known.startswith(written)]
-    near = difflib.get_close_matches(written, longer, 1, cutoff=0.0)
-    near = near or difflib.get_close_matches(written, known_words, 1)
-    meant = [known for known in words if near and known.lower() == near[0]]
-    return f"; did you mean '{meant[0]}'?" if meant else ""
+from .._fixed import nearest
 
 
 def not_one_of(word: object, words: Iterable[str]) -> str:
     """What is wrong with a word that is none of some, and which of them it may have meant."""
     known = list(words)
-    return f"'{word}' is not one of {', '.join(known)}{did_you_mean(word, known)}"
+    return f"'{word}' is not one of {', '.join(known)}{nearest(word, known)}"
 
 
 def file_like(path: Path) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..errors import InputError
-from ..hints import did_you_mean
+from ..._fixed import nearest
 from .case import Case
 
 
@@ -22,5 +22,5 @@ def find_cases(names: tuple[str, ...] | list[str]) -> list[Case]:
     cases = {case.name: case for case in all_cases()}
     unknown = [name for name in names if name not in cases]
     if unknown:
-        raise InputError(f"there is no case '{unknown[0]}' (there are: {', '.join(cases)}){did_you_mean(unknown[0], cases)}")
+        raise InputError(f"there is no case '{unknown[0]}' (there are: {', '.join(cases)}){nearest(unknown[0], cases)}")
     return [cases[name] for name in names] if names else list(cases.values())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..hints import did_you_mean
+from ..._fixed import nearest
 from .scene import VECTORS, CameraPart, KeyframePart, Part, Scene, material_groups
 
 #: Bits of the groups of a material.
@@ -50,7 +50,7 @@ def _material_problems(scene: Scene) -> list[str]:
     named += [(f"colliders[{index}].meets", name) for index, part in enumerate(scene.colliders) for name in part.meets or ()]
     known = ", ".join(sorted(scene.materials))
     return [
-        f"{where}: no material is called '{material}' (there are: {known}){did_you_mean(material, scene.materials)}"
+        f"{where}: no material is called '{material}' (there are: {known}){nearest(material, scene.materials)}"
         for where, material in named
         if material is not None and material not in scene.materials
     ]

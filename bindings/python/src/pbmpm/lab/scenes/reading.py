@@ -10,7 +10,8 @@ from typing import Any
 from pydantic import ValidationError
 
 from ..errors import InputError
-from ..hints import did_you_mean, file_like
+from ..._fixed import nearest
+from ..hints import file_like
 from .scene import VECTORS, Part
 
 
@@ -50,10 +51,10 @@ def describe_problems(error: ValidationError, data: Any, source: str) -> str:
         elif item["type"] == "literal_error":
             expected = item["ctx"]["expected"]
             message = f"{item['input']!r} is not one of {expected}"
-            message += did_you_mean(item["input"], re.findall(r"'(\w+)'", expected))
+            message += nearest(item["input"], re.findall(r"'(\w+)'", expected))
         elif item["type"] == "union_tag_invalid":
             message = f"'{item['ctx']['tag']}' is not one of {item['ctx']['expected_tags']}"
-            message += did_you_mean(item["ctx"]["tag"], re.findall(r"'(\w+)'", item["ctx"]["expected_tags"]))
+            message += nearest(item["ctx"]["tag"], re.findall(r"'(\w+)'", item["ctx"]["expected_tags"]))
         elif item["type"] == "union_tag_not_found":
             message = f"the field {item['ctx']['discriminator']} is missing: it says what this is"
         elif item["type"] in ("list_type", "too_short", "too_long") and item["loc"][-1] in VECTORS:
@@ -71,7 +72,7 @@ def _meant(name: int | str) -> str:
     owners = _all_fields()
     if name in owners:
         return f" here; it belongs to {owners[str(name)]}"
-    return did_you_mean(name, owners)
+    return nearest(name, owners)
 
 
 def _all_fields() -> dict[str, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from . import bad_input, changes, contrast, energy, impact, ladder, overfull, rate, rest, shape, strain, volume
-from ...hints import did_you_mean
+from ...._fixed import nearest
 from .case import HardCase
 
 _MODULES = (bad_input, changes, contrast, energy, impact, ladder, overfull, rate, rest, shape, strain, volume)
@@ -19,4 +19,4 @@ def find_case(identifier: str) -> HardCase:
         if case.id == wanted:
             return case
     known = [case.id for case in CASES]
-    raise ValueError(f"there is no hard case '{identifier}'; there are {', '.join(known)}{did_you_mean(identifier, known)}")
+    raise ValueError(f"there is no hard case '{identifier}'; there are {', '.join(known)}{nearest(identifier, known)}")
