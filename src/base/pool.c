@@ -92,9 +92,9 @@ static void host_task(int32_t index, void *context)
 
 /* ---- Own threads ----
  *
- * A worker takes part in loops by going through their gate while it is open. The caller closes it when nothing is left to take, and waits for those inside alone. So it
- * never waits for a worker that has yet to get a core, which takes milliseconds where other processes are busy. As many workers are awake as have cores and ranges;
- * one that comes too late looks for the next loops, and sleeps. */
+ * A worker takes part in loops by going through their gate while it is open. When the caller has nothing left to take it closes the gate, and waits only for workers that are
+ * inside. It never waits for one that has yet to get a core: beside busy processes that takes milliseconds. No more workers are awake than there are cores and ranges
+ * for. One that finds the gate closed waits for the next loops. */
 static const uint64_t INSIDE = 1, OPEN = (uint64_t)1 << 16, ROUND = (uint64_t)1 << 32; /* how many are inside, whether it is open, and which loops these are */
 
 static bool may_enter(uint64_t gate, uint64_t seen) { return (gate & OPEN) != 0 && gate / ROUND != seen; }
@@ -186,8 +186,9 @@ pbmpm_result pool_create(Memory *memory, int threads, const pbmpm_task_hooks *ho
     pool->threads = threads;
     if (hooks) pool->hooks = *hooks;
     const int cores = cpu_core_count();
-    pool->spin_rounds = cores > 1 ? SPIN_ROUNDS : 0; /* with more threads than cores spinning steals time */
-    pool->most = threads <= cores ? threads - 1 : cores > 1 ? cores - 1 : 1;
+    const int awake = threads < cores ? threads : cores;
+    pool->spin_rounds = cores > 1 ? SPIN_ROUNDS : 0; /* on a single core spinning steals time */
+    pool->most = awake > 2 ? awake - 1 : 1;
     pthread_mutex_init(&pool->lock, NULL);
     pthread_cond_init(&pool->work, NULL);
     pthread_cond_init(&pool->done, NULL);

@@ -76,13 +76,26 @@ static bool is_open(const Near *near, const double point[3])
     return true;
 }
 
-/* Whether the space is open before a place where these faces meet. A baked solid is asked farther off: before its rounded edge, which is flush with another obstacle, the
- * space seems to be open. */
+/* A grid of distances rounds edges off: at an edge of a right angle in the middle of a cell it has the mean of the cell's corners, (2^(-1/2) + 1/2 + 1/2 - 1/2) / 4 of its
+ * spacing, where 0 is right. */
+static const double EDGE_GAP = 0.302;
+
+/* Where a baked solid is asked whether the space is open before a place. At its edge, which is flush with a face, the space seems open just before it. A step of its grid
+ * farther off it has its true distance again. */
+static double before_of(const Near *near, const Obstacle *o, const double place[3])
+{
+    const DistanceGrid *grid = field_solid(near, o)->grid;
+    const bool edge = grid && solid_gap(field_solid(near, o), place) <= EDGE_GAP * grid->spacing;
+    return edge ? BEFORE + grid->spacing / near->cell_size : BEFORE;
+}
+
+/* Whether the space is open before a place where these faces meet. */
 static bool is_open_before(const Near *near, const double place[3], const Face *const *face, int count)
 {
     for (int i = 0; i < near->count; i++) {
+        const double length = before_of(near, near->obstacle[i], place);
         double before[3] = {place[0], place[1], place[2]};
-        for (int k = 0; k < count; k++) ahead(near, before, BEFORE + 2.0 * rounding_of(near, near->obstacle[i]), face[k]->normal, before);
+        for (int k = 0; k < count; k++) ahead(near, before, length, face[k]->normal, before);
         if (solid_gap(field_solid(near, near->obstacle[i]), before) <= ON_SURFACE * near->cell_size) return false;
     }
     return true;
@@ -145,8 +158,7 @@ static bool is_known(const Face *face, int count, const double normal[3])
     return known;
 }
 
-/* The nearest face of a baked solid, and the planes of those that are nearest a reach away in each direction: where the nearest lies on a floor, another one bounds
- * the space. */
+/* The nearest face of a baked solid, and what is nearest to places a reach away in each direction. Where the nearest face lies on a floor, another one bounds the space. */
 static int baked_faces(const Near *near, const Obstacle *o, const double point[3], double reach, Face *face, int room)
 {
     static const double STEPS[3] = {0.0, -1.0, 1.0};
@@ -332,13 +344,13 @@ static int add_baked(const Near *near, const Face *first, const double point[3],
     return count;
 }
 
-/* Where the nearest place of a baked solid is the edge that it stands on, its other faces that bound the space. */
+/* Where the nearest place of a baked solid is the edge that it stands on, its other faces. A point in the open is behind none by more than edges are rounded. */
 static int add_above_edge(const Near *near, const Obstacle *o, const double point[3], double reach, Face face[FIELD_FACES], int count)
 {
     Face all[CANDIDATES];
     const int candidates = baked_faces(near, o, point, reach, all, CANDIDATES);
     for (int i = 0; i < candidates; i++)
-        if (bounds_space(near, &all[i])) count = add_face(face, count, &all[i], near->dimension);
+        if (all[i].distance >= -rounding_of(near, o) && bounds_space(near, &all[i])) count = add_face(face, count, &all[i], near->dimension);
     return count;
 }
 

@@ -237,19 +237,19 @@ static double densest_liquid(const World *world)
     return densest;
 }
 
-/* The grid shows no liquid in a narrow gap, and what stands above presses the body down. A crate of 400 kg/m^3 that starts 0 or half a cell above the floor of a room that fills stays there
- * for ever, from one cell on it floats. */
+/* The grid shows no liquid in a narrow gap, and what stands above presses the body down. In a room that fills, crates of 400 kg/m^3 that start less than two cells above the
+ * floor stay on it. */
 void advise_rigid_stays_down(Adviser *adviser)
 {
-    static const double SEES = 1.0; /* [cells] see above */
+    static const double NARROW = 1.0; /* [cells] of the gap: a body that fell so far stays */
     const World *world = adviser->world;
     for (uint32_t place = 0; adviser_wall_below(world) && place < world->colliders.used; place++) {
         const Collider *body = body_at(world, place);
-        if (!body || !moves(body) || gap_to_floor(world, body) >= SEES) continue;
+        if (!body || !moves(body) || gap_to_floor(world, body) >= NARROW) continue;
         const Solid solid = solid_where(world, body);
         if (mass_of(world, body) >= densest_liquid(world) * solid_volume(&solid)) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_KNOWN_LIMIT, .collider = {place, body->generation},
-                                             .text = "a light rigid body on the domain's floor stays there when liquid comes: from a cell above the floor on it floats"});
+                                             .text = "a light rigid body on the domain's floor stays there when liquid comes: let it start two cells above"});
     }
 }
 

@@ -356,6 +356,23 @@ def mesh_wall(run: Run, floor: str, shift: float = 0.0, angle: float = 0.0, dime
         run.check("rms speed", rms(world), 0, 0.01, "m/s", why=REST)
 
 
+@case(two=dict(gap=2.0), one_and_a_half=dict(gap=1.5))
+def baked_channel(run: Run, gap: float) -> None:
+    """A column of water, 20 cells high, between two baked blocks. Their grids are as coarse as the channel is wide."""
+    high, wide, step = 20 * CELL, 8 * CELL, 2 * CELL
+    with run.world(2, CELL) as world:
+        world.add_collider(Box((0, -0.2), (1, 0.2)), friction=Friction.SLIP)
+        for side in (-1, 1):
+            low, top = (-wide, -0.2), (0.0, high + 0.2)
+            solid = world.load_solid(bake_mesh(*_block(low, top), resolution=round((top[1] - low[1]) / step)))
+            world.add_collider(Baked((side * gap * CELL / 2 + (wide if side > 0 else 0.0), 0.0), solid), friction=Friction.SLIP)
+        pool(world, Frame(), (-gap * CELL / 2, 0), (gap * CELL / 2, high), Liquid())
+        run.steps(world, 3)
+        y = world.positions.array()[:, 1]
+        run.near("mean height", y.mean(), high / 2, 0.5, CELL, why="water keeps its volume; half a cell of 20")
+        run.check("share of water outside", (y < -CELL / 2).mean(), 0, 0.001, why="walls do not leak")
+
+
 def _block(low: Any, high: Any) -> tuple[Any, Any]:
     """Corners and faces of a box, which face outwards: edges in 2D, triangles in 3D."""
     d = len(low)
