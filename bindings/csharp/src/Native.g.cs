@@ -1716,7 +1716,7 @@ namespace Pbmpm.Native
 
     /// <summary>A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] and
     /// j * spacing[1] along the axes other than `up` (2D: i alone). Let terrain reach some cells past the walls
-    /// of a domain. If its side is flush with a wall and samples are two cells apart, water stirs there and may slip down.</summary>
+    /// of a domain. If its side is flush with a wall, water may stir. If samples are two cells apart, it may slip down, too.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct HeightsDef
     {
