@@ -36,6 +36,7 @@ pbmpm_result world_create(const pbmpm_world_def *def, World **out)
     pthread_mutex_init(&world->making, NULL);
     world->kernels = kernels_for(isa, def->dimension);
     world->generation = 1;
+    world->matter_depth = 1.0;
     world->domain = domain_of(def);
     const int threads = def->thread_count ? def->thread_count : cpu_core_count();
     pbmpm_result result = particles_init(&world->particles, &world->memory, def->dimension, def->particle_capacity);

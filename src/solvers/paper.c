@@ -50,7 +50,7 @@ static double weight_head(const World *world, const LiquidState *liquid)
 {
     const double strength = gravity_strength(world);
     if (strength == 0.0 || liquid->volume == 0.0) return 0.0;
-    const double stands = depth_along_gravity(world, true) * (double)world->def.cell_size;
+    const double stands = depth_along_gravity(world) * (double)world->def.cell_size;
     return fmax(stands, strength * pow(liquid->volume, 1.0 / world->def.dimension));
 }
 

@@ -63,7 +63,9 @@ static void follow_iterations(World *world)
 {
     static const double GROWTH = 1.04; /* per substep: the factor e in 26 of them, see above */
     const double now = (double)world->settings.iterations, before = world->slow_iterations;
-    const double risen = solver_uses_dual(world) ? dual_stiffened(world, &world->substep, before) : GROWTH * before;
+    const bool begins = before == floor(before) && before < now; /* in between they are no whole number */
+    double risen = GROWTH * before;
+    if (solver_uses_dual(world)) risen = begins ? dual_continued(world, &world->substep, (int)before, (int)now) : dual_stiffened(world, &world->substep, before);
     world->slow_iterations = before > 0.0 ? fmin(now, risen) : now;
 }
 
@@ -113,6 +115,7 @@ void solver_bind(World *world, bool with_volume)
                       .max_cell = CELL_LIMIT,
                       .salt = (uint32_t)world->step_count * PBMPM_MAX_SUBSTEPS + world->record.substeps,
                       .check_strain = world->strain_unchecked};
+    if (world->record.solver != PBMPM_SOLVER_PAPER) matter_depth_find(world);
     follow_iterations(world);
     kinds[world->record.solver].set_materials(world);
     set_volume_control(world);

@@ -4,14 +4,16 @@
 
 #include "world/world.h"
 
-/* The length along gravity between which all but a fiftieth of the particles at either end lie, in cells times |g|: narrowed by histograms
- * of blocks, so that a stray particle far away does not count. `asleep_too`: of all particles; else of those in the grid. */
-double depth_along_gravity(const World *world, bool asleep_too);
+/* The length along gravity between which all but a fiftieth of the particles at either end lie, in cells times |g|: narrowed by histograms,
+ * so that a stray particle far away does not count. It follows matter that moves without leaps: what it asks for would make bodies swing. */
+double depth_along_gravity(const World *world);
 
-/* The same of those in the grid in cells; without gravity the edge of a cube as large as the blocks with matter. At least 1. */
+/* The same of those in the grid, in cells; without gravity the edge of a cube as large as the blocks with matter. At least 1. Found once the
+ * grid stands, for all who ask in that substep. */
+void matter_depth_find(World *world);
 double matter_depth(const World *world);
 
-/* The same of the liquid alone. 1 without gravity. */
+/* The same of the liquid in the grid alone, found at once. 1 without gravity. */
 double liquid_depth(const World *world);
 
 /* sqrt(a) of the slowest mode of the pressure in matter that rests on something: a wave with the wave number k per cell has the eigenvalue

@@ -199,6 +199,7 @@ typedef struct World {
     Sleep sleep;
     double slow_dt;        /* [s] follows dt up at once and down slowly, see paper.c */
     double slow_iterations; /* follows the iterations down at once and up slowly, see solver.c; 0 before the first substep */
+    double matter_depth;   /* [cells] of the present substep, see depth.h */
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
     pthread_mutex_t making; /* see readers.h */

@@ -27,3 +27,17 @@ double acceleration_last(int iterations)
     }
     return b;
 }
+
+double acceleration_reached(double stiffness, int iterations)
+{
+    const double left = stiffness / (1.0 + stiffness);
+    double t = 1.0, b = 0.0, wrong = 1.0, before = 1.0;
+    for (int i = 0; i < iterations; i++) {
+        const double now = left * (wrong + b * (wrong - before)), next = next_of(t);
+        before = wrong;
+        wrong = now;
+        b = (t - 1.0) / next;
+        t = next;
+    }
+    return 1.0 - wrong;
+}

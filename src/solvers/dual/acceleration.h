@@ -19,6 +19,10 @@ Acceleration acceleration_begin(World *world);
 /* Sets args.dual.momentum for the push that follows: 0 after the last iteration. */
 void acceleration_next(Acceleration *acceleration, bool uphill, bool more);
 
+/* The share of the stress that balances an even strain, of the stiffness M, that so many iterations reach where none goes uphill. Nobody answers to it there, so
+ * each leaves M / (1 + M) of what was wrong. */
+double acceleration_reached(double stiffness, int iterations);
+
 /* The extrapolation before the last of so many iterations, where none went uphill. */
 double acceleration_last(int iterations);
 

@@ -33,6 +33,9 @@ bool dual_holds_solids(const World *world, const Substep *substep);
 /* How many iterations solids may count on in the next substep that count on so many in this one, where more are set; see solver.c. */
 double dual_stiffened(const World *world, const Substep *substep, double iterations);
 
+/* How many they may count on at first where iterations are raised. */
+double dual_continued(const World *world, const Substep *substep, int before, int now);
+
 /* The share of its last pressure that a liquid starts a substep from. */
 double dual_carried_share(const World *world);
 
