@@ -136,7 +136,7 @@ static double depth_of(const World *world, bool liquid, bool asleep_too)
         profile.low = low - width;
         profile.high = high + width;
     }
-    return high - low;
+    return (high - low) / (1.0 - 2.0 * TRIMMED); /* exact where it is even */
 }
 
 double depth_along_gravity(const World *world) { return depth_of(world, false, true); }

@@ -4,8 +4,8 @@
 
 #include "world/world.h"
 
-/* The length along gravity between which all but a fiftieth of the particles at either end lie, in cells times |g|: narrowed by histograms,
- * so that a stray particle far away does not count. It follows matter that moves without leaps: what it asks for would make bodies swing. */
+/* The length along gravity over which even matter lies if all but a fiftieth at either end do so, in cells times |g|: a stray particle far away
+ * does not count. It follows matter that moves without leaps: what it asks for would make bodies swing. */
 double depth_along_gravity(const World *world);
 
 /* The same of those in the grid, in cells; without gravity the edge of a cube as large as the blocks with matter. At least 1. Found once the
