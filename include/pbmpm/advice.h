@@ -34,7 +34,7 @@ typedef enum pbmpm_advice_code {
                                             meet. Figure: [cells per substep] */
     PBMPM_ADVICE_OVERLAPS = 17,        /**< before the first step: matter was put where there is other matter. Figure: share of the material that lies in
                                             overfull places; for liquids, of all liquids together */
-    PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */
+    PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what the library does not do right; the text says what, and what helps if anything does. No figure */
     PBMPM_ADVICE_NO_FRICTION = 19,     /**< sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient. Or a liquid
                                             with kinematic_viscosity among walls none of which holds it, or a rigid body on such a floor. Figure: 0 */
     PBMPM_ADVICE_EMITTER_OUTSIDE = 20, /**< an emitter stands wholly beyond a wall of the domain, so it emits nothing. Figure: how far beyond [cells] */

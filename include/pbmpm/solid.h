@@ -39,7 +39,7 @@ typedef struct pbmpm_mesh_def {
 
 /** A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] and
  *  j * spacing[1] along the axes other than `up` (2D: i alone). Let terrain reach some cells past the walls
- *  of a domain. If its side is flush with a wall, water may stir. If samples are two cells apart, it may slip down, too. */
+ *  of a domain. If its side is flush with a wall, and its grid is coarser than 1.5 cells of the world, matter may slip down there. */
 typedef struct pbmpm_heights_def {
     uint32_t size;        /**< sizeof(pbmpm_heights_def), set by pbmpm_heights_def_init() */
     int32_t dimension;    /**< 2 or 3; default 3 */

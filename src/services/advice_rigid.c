@@ -140,13 +140,13 @@ void advise_rigid_on_sand(Adviser *adviser)
 
 /* ---- In liquid ---- */
 
-/* [kg/m^3] of the densest liquid that a body touches; 0: it touches none. */
-static double liquid_at(const World *world, const Collider *body)
+/* [kg/m^3] of the densest liquid that a body touches, or of all without a body; 0: there is none. */
+static double densest_liquid(const World *world, const Collider *body)
 {
     double densest = 0.0;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double density = (double)world->materials.def[slot].density;
-        if (adviser_present(world, slot) && adviser_flows(&world->materials.def[slot]) && density > densest && touches(world, slot, body)) densest = density;
+        if (adviser_present(world, slot) && adviser_flows(&world->materials.def[slot]) && density > densest && (!body || touches(world, slot, body))) densest = density;
     }
     return densest;
 }
@@ -168,7 +168,7 @@ void advise_rigid_sinks(Adviser *adviser)
         const Collider *body = body_at(world, place);
         if (!body || !moves(body)) continue;
         const Solid solid = solid_where(world, body);
-        const double liquid = liquid_at(world, body), cells = solid_breadth(&solid) / (double)world->def.cell_size;
+        const double liquid = densest_liquid(world, body), cells = solid_breadth(&solid) / (double)world->def.cell_size;
         const double floats = liquid > 0.0 ? 1.0 - mass_of(world, body) / (liquid * solid_volume(&solid)) : 0.0, missing = lift_missing(world->def.dimension, cells);
         if (floats <= 0.0 || missing <= floats) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_BODY_TOO_THIN, .collider = {place, body->generation}, .figure = (float)cells, .bound = (float)(cells * missing / floats),
@@ -186,7 +186,7 @@ void advise_rigid_turns(Adviser *adviser)
     const World *world = adviser->world;
     for (uint32_t place = 0; place < world->colliders.used && world->settings.solver != PBMPM_SOLVER_PAPER; place++) {
         const Collider *body = body_at(world, place);
-        if (!body || !moves(body) || body->shape.kind != PBMPM_SPHERE || 2.0 * (double)body->shape.radius >= SLOWLY * (double)world->def.cell_size || liquid_at(world, body) == 0.0) continue;
+        if (!body || !moves(body) || body->shape.kind != PBMPM_SPHERE || 2.0 * (double)body->shape.radius >= SLOWLY * (double)world->def.cell_size || densest_liquid(world, body) == 0.0) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_KNOWN_LIMIT, .collider = {place, body->generation},
                                              .text = "a rigid ball in liquid turns by itself: slowly only from 24 cells on"});
     }
@@ -229,14 +229,6 @@ void advise_rigid_glides(Adviser *adviser)
 }
 
 /* [kg/m^3] of the densest liquid of the world; 0: it has none. */
-static double densest_liquid(const World *world)
-{
-    double densest = 0.0;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (adviser_present(world, slot) && adviser_flows(&world->materials.def[slot])) densest = fmax(densest, (double)world->materials.def[slot].density);
-    return densest;
-}
-
 /* The grid shows no liquid in a narrow gap, and what stands above presses the body down. In a room that fills, crates of 400 kg/m^3 that start less than two cells above the
  * floor stay on it. */
 void advise_rigid_stays_down(Adviser *adviser)
@@ -247,7 +239,7 @@ void advise_rigid_stays_down(Adviser *adviser)
         const Collider *body = body_at(world, place);
         if (!body || !moves(body) || gap_to_floor(world, body) >= NARROW) continue;
         const Solid solid = solid_where(world, body);
-        if (mass_of(world, body) >= densest_liquid(world) * solid_volume(&solid)) continue;
+        if (mass_of(world, body) >= densest_liquid(world, NULL) * solid_volume(&solid)) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_KNOWN_LIMIT, .collider = {place, body->generation},
                                              .text = "a light rigid body on the domain's floor stays there when liquid comes: let it start two cells above"});
     }

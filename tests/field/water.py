@@ -328,6 +328,8 @@ def block_wall(run: Run, offset: float) -> None:
     on_mesh=dict(floor="mesh"),
     on_mesh_off=dict(floor="mesh", shift=0.4),
     coarse=dict(floor="box", resolution=24),
+    coarse_off=dict(floor="box", resolution=27, shift=0.4),
+    medium_off=dict(floor="box", resolution=45, shift=0.55),
     on_box_3d=dict(floor="box", dimension=3),
 )
 def mesh_wall(run: Run, floor: str, shift: float = 0.0, angle: float = 0.0, dimension: int = 2, resolution: int = 64) -> None:
@@ -337,9 +339,9 @@ def mesh_wall(run: Run, floor: str, shift: float = 0.0, angle: float = 0.0, dime
     domain = ([0.0] * dimension, [wide, 1.5] + [at] * (dimension - 2)) if floor == "domain" else None
     with run.world(dimension, CELL, frame.gravity, domain=domain) as world:
 
-        def bake(low: Any, high: Any, friction: Any) -> None:
+        def bake(low: Any, high: Any) -> None:
             solid = world.load_solid(bake_mesh(*_block(low, high), resolution=resolution))
-            world.add_collider(Baked(frame.out([0.0] * dimension).tolist(), solid, rotation=frame.rotation), friction=friction)
+            world.add_collider(Baked(frame.out([0.0] * dimension).tolist(), solid, rotation=frame.rotation), friction=Friction.SLIP)
 
         if domain is None:
             tank(world, frame, at if dimension == 3 else wide, 1.5, "boxes", floor=False)
@@ -347,8 +349,8 @@ def mesh_wall(run: Run, floor: str, shift: float = 0.0, angle: float = 0.0, dime
         if floor == "box":
             world.add_collider(frame.box(low, high), friction=Friction.SLIP)
         elif floor == "mesh":
-            bake(low, high, Friction.SLIP)
-        bake([at, 0.0, -0.1][:dimension], [at + thick, 1.0, at + 0.1][:dimension], Friction.SLIP)
+            bake(low, high)
+        bake([at, 0.0, -0.1][:dimension], [at + thick, 1.0, at + 0.1][:dimension])
         pool(world, frame, [0.0] * dimension, [at, deep, at][:dimension], Liquid())
         run.steps(world, 6 if dimension == 2 else 3)
         p = frame.positions(world)

@@ -303,7 +303,7 @@ namespace Pbmpm
         /// <summary>before the first step: matter was put where there is other matter. Figure: share of the material that lies in
         /// overfull places; for liquids, of all liquids together</summary>
         Overlaps = 17,
-        /// <summary>what neither rate nor iterations mend; the text says what. No figure</summary>
+        /// <summary>what the library does not do right; the text says what, and what helps if anything does. No figure</summary>
         KnownLimit = 18,
         /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient. Or a liquid
         /// with kinematic_viscosity among walls none of which holds it, or a rigid body on such a floor. Figure: 0</summary>
@@ -1716,7 +1716,7 @@ namespace Pbmpm.Native
 
     /// <summary>A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] and
     /// j * spacing[1] along the axes other than `up` (2D: i alone). Let terrain reach some cells past the walls
-    /// of a domain. If its side is flush with a wall, water may stir. If samples are two cells apart, it may slip down, too.</summary>
+    /// of a domain. If its side is flush with a wall, and its grid is coarser than 1.5 cells of the world, matter may slip down there.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct HeightsDef
     {
