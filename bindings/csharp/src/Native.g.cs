@@ -1716,7 +1716,8 @@ namespace Pbmpm.Native
 
     /// <summary>A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] and
     /// j * spacing[1] along the axes other than `up` (2D: i alone). Let terrain reach some cells past the walls
-    /// of a domain. If its side is flush with a wall, and its grid is coarser than 1.5 cells of the world, matter may slip down there.</summary>
+    /// of a domain. If its side is flush with a wall, give it a grid of at most 1.5 cells of the world: beside a coarser one
+    /// matter may slip down.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct HeightsDef
     {
