@@ -76,17 +76,65 @@ static bool is_open(const Near *near, const double point[3])
     return true;
 }
 
-/* A grid of distances rounds edges off: at an edge of a right angle in the middle of a cell it has the mean of the cell's corners, (2^(-1/2) + 1/2 + 1/2 - 1/2) / 4 of its
- * spacing, where 0 is right. */
-static const double EDGE_GAP = 0.302;
+/* Moves a place to where the surface of a solid seems to be; the normal is that before it moved. */
+static void to_surface(const Near *near, const Obstacle *o, double place[3], double normal[3])
+{
+    const double distance = solid_distance(field_solid(near, o), place, normal) / near->cell_size;
+    ahead(near, place, -distance, normal, place);
+}
 
-/* Where a baked solid is asked whether the space is open before a place. At its edge, which is flush with a face, the space seems open just before it. A step of its grid
+/* Axes along a face with this normal. */
+static void axes_along(int dimension, const double normal[3], double along[2][3])
+{
+    int least = 0;
+    double axis[3] = {0};
+    for (int a = 1; a < 3; a++) least = fabs(normal[a]) < fabs(normal[least]) ? a : least;
+    axis[dimension == 3 ? least : 2] = 1.0;
+    cross3(normal, axis, along[0]);
+    const double size = sqrt(dot3(along[0], along[0]));
+    for (int a = 0; a < 3; a++) along[0][a] /= size;
+    cross3(normal, along[0], along[1]);
+}
+
+/* At an edge the grid of distances has normals between those of the faces that meet there: walls that lean so drove water at their feet at up to 0.8 m/s. So a face has to
+ * go on a step of the grid beside a place on it, along each of its axes: where it does to one side alone, it is taken from there. False: it does not. */
+static bool leave_edge(const Near *near, const Obstacle *o, double place[3], double normal[3])
+{
+    static const double GOES_ON = 0.9; /* cosine. At an edge of a right angle it is 0.7, on a ball whose radius is three steps 0.94 */
+    const double step = field_solid(near, o)->grid->spacing / near->cell_size;
+    double along[2][3];
+    axes_along(near->dimension, normal, along);
+    for (int k = 0; k + 1 < near->dimension; k++) {
+        double beside[2][3], there[2][3];
+        bool goes_on[2];
+        for (int side = 0; side < 2; side++) {
+            ahead(near, place, side == 0 ? -step : step, along[k], beside[side]);
+            to_surface(near, o, beside[side], there[side]);
+            goes_on[side] = dot3(there[side], normal) >= GOES_ON;
+        }
+        if (!goes_on[0] && !goes_on[1]) return false;
+        if (goes_on[0] && goes_on[1]) continue;
+        memcpy(normal, there[goes_on[1]], sizeof there[0]);
+        memcpy(place, beside[goes_on[1]], sizeof beside[0]);
+    }
+    return true;
+}
+
+/* Whether a place near the surface of a solid is at an edge that a grid of distances rounds off. */
+static bool is_at_edge(const Near *near, const Obstacle *o, const double place[3])
+{
+    double there[3] = {place[0], place[1], place[2]}, normal[3], before[3];
+    if (fabs(solid_distance(field_solid(near, o), place, normal)) > rounding_of(near, o) * near->cell_size) return false;
+    memcpy(before, normal, sizeof before);
+    return !leave_edge(near, o, there, normal) || memcmp(before, normal, sizeof before) != 0;
+}
+
+/* Where a solid is asked whether the space is open before a place. At its rounded edge, which is flush with a face, the space seems open just before it. A step of its grid
  * farther off it has its true distance again. */
 static double before_of(const Near *near, const Obstacle *o, const double place[3])
 {
     const DistanceGrid *grid = field_solid(near, o)->grid;
-    const bool edge = grid && solid_gap(field_solid(near, o), place) <= EDGE_GAP * grid->spacing;
-    return edge ? BEFORE + grid->spacing / near->cell_size : BEFORE;
+    return grid && is_at_edge(near, o, place) ? BEFORE + grid->spacing / near->cell_size : BEFORE;
 }
 
 /* Whether the space is open before a place where these faces meet. */
@@ -156,50 +204,6 @@ static bool is_known(const Face *face, int count, const double normal[3])
     bool known = false;
     for (int i = 0; i < count; i++) known = known || dot3(face[i].normal, normal) > SAME_DIRECTION;
     return known;
-}
-
-/* Moves a place to where the surface of a solid seems to be; the normal is that before it moved. */
-static void to_surface(const Near *near, const Obstacle *o, double place[3], double normal[3])
-{
-    const double distance = solid_distance(field_solid(near, o), place, normal) / near->cell_size;
-    ahead(near, place, -distance, normal, place);
-}
-
-/* Axes along a face with this normal. */
-static void axes_along(int dimension, const double normal[3], double along[2][3])
-{
-    int least = 0;
-    double axis[3] = {0};
-    for (int a = 1; a < 3; a++) least = fabs(normal[a]) < fabs(normal[least]) ? a : least;
-    axis[dimension == 3 ? least : 2] = 1.0;
-    cross3(normal, axis, along[0]);
-    const double size = sqrt(dot3(along[0], along[0]));
-    for (int a = 0; a < 3; a++) along[0][a] /= size;
-    cross3(normal, along[0], along[1]);
-}
-
-/* At an edge the grid of distances has normals between those of the faces that meet there: walls that lean so drove water at their feet at up to 0.8 m/s. So a face has to
- * go on a step of the grid beside a place on it, along each of its axes: where it does to one side alone, it is taken from there. False: it does not. */
-static bool leave_edge(const Near *near, const Obstacle *o, double place[3], double normal[3])
-{
-    static const double GOES_ON = 0.9; /* cosine. At an edge of a right angle it is 0.7, on a ball whose radius is three steps 0.94 */
-    const double step = field_solid(near, o)->grid->spacing / near->cell_size;
-    double along[2][3];
-    axes_along(near->dimension, normal, along);
-    for (int k = 0; k + 1 < near->dimension; k++) {
-        double beside[2][3], there[2][3];
-        bool goes_on[2];
-        for (int side = 0; side < 2; side++) {
-            ahead(near, place, side == 0 ? -step : step, along[k], beside[side]);
-            to_surface(near, o, beside[side], there[side]);
-            goes_on[side] = dot3(there[side], normal) >= GOES_ON;
-        }
-        if (!goes_on[0] && !goes_on[1]) return false;
-        if (goes_on[0] && goes_on[1]) continue;
-        memcpy(normal, there[goes_on[1]], sizeof there[0]);
-        memcpy(place, beside[goes_on[1]], sizeof beside[0]);
-    }
-    return true;
 }
 
 /* The plane through a place on a solid, seen from a point. */
