@@ -102,9 +102,11 @@ def test_the_ratio_is_that_of_the_same_rounds() -> None:
     assert ratios_of("liquid", 3, [dual]) == []
 
 
-def passes_of_deep_sand() -> int:
-    """The dual solver crosses a column of 6 m in 1/60 s, by 4 cells per iteration; what it does beyond those asked for counts, as it costs as much."""
-    return max(ITERATIONS, math.ceil(6.0 / CELL * 60.0 / RATE_HZ / 4.0))
+def passes_of_deep_sand() -> range:
+    """The dual solver crosses a column of 6 m in 1/60 s, by 4 cells per iteration; what it does beyond those asked for counts, as it costs as much. The depth is
+    known to half a cell at either end."""
+    least, most = (max(ITERATIONS, math.ceil((6.0 / CELL + cells) * 60.0 / RATE_HZ / 4.0)) for cells in (-1.0, 1.0))
+    return range(least, most + 1)
 
 
 @pytest.mark.parametrize("material", MATERIALS)
@@ -116,8 +118,8 @@ def test_a_measurement_steps_all_solvers(material: str) -> None:
     for own in found:
         solver_iterates = own.variant != "explicit"
         assert (len(own.few), len(own.many)) == (1, 1 if solver_iterates else 0)
-        few = passes_of_deep_sand() if (own.variant, material) == ("dual", "sand") else ITERATIONS
-        assert own.used[0] == (few if solver_iterates else 1)
+        few = passes_of_deep_sand() if (own.variant, material) == ("dual", "sand") else [ITERATIONS]
+        assert own.used[0] in (few if solver_iterates else [1])
         assert own.used[1] > own.used[0] or not solver_iterates
         assert own.bytes_per_particle > 100  # positions, velocities, affine velocities, identifiers
 
