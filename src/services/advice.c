@@ -45,6 +45,7 @@ static const struct {
     {PBMPM_ADVICE_NO_FRICTION, "PBMPM_ADVICE_NO_FRICTION", "", advise_rigid_glides},
     {PBMPM_ADVICE_EMITTER_OUTSIDE, "PBMPM_ADVICE_EMITTER_OUTSIDE", "cells", advise_emitter_outside},
     {PBMPM_ADVICE_EMITTER_REFUSED, "PBMPM_ADVICE_EMITTER_REFUSED", "", advise_emitter_refused},
+    {PBMPM_ADVICE_COLLIDER_TOO_COARSE, "PBMPM_ADVICE_COLLIDER_TOO_COARSE", "cells", advise_collider_too_coarse},
 };
 
 pbmpm_result advice_give(World *world, double dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count)

@@ -11,11 +11,9 @@ static const double DEEPEST = 5.0;
 /* Of the surface of sand: fewer places may be a corner. */
 static const double STEEP = 0.1;
 
-/* advice_scene.c: gravity, obstacles, speed, emitters, what came true */
+/* advice_scene.c: gravity, speed, emitters, what came true */
 void advise_no_gravity(Adviser *adviser);
 void advise_falls_forever(Adviser *adviser);
-void advise_collider_too_fast(Adviser *adviser);
-void advise_collider_too_thin(Adviser *adviser);
 void advise_step_too_long(Adviser *adviser);
 void advise_enters_bodies(Adviser *adviser);
 void advise_slips(Adviser *adviser);
@@ -25,6 +23,11 @@ void advise_volume_lost(Adviser *adviser);
 void advise_strain_clamped(Adviser *adviser);
 void advise_not_solved(Adviser *adviser);
 void advise_overlaps(Adviser *adviser);
+
+/* advice_obstacles.c: speed, thickness, baked grids */
+void advise_collider_too_fast(Adviser *adviser);
+void advise_collider_too_thin(Adviser *adviser);
+void advise_collider_too_coarse(Adviser *adviser);
 
 /* advice_ignored.c: parameters that do nothing */
 void advise_ignored_parameters(Adviser *adviser);

@@ -45,7 +45,7 @@ static void test_arguments_are_checked(void)
 
 static void test_every_code_has_a_name(void)
 {
-    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_EMITTER_REFUSED; code++)
+    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_COLLIDER_TOO_COARSE; code++)
         TEST_ASSERT_EQUAL_INT(0, strncmp(pbmpm_advice_name((pbmpm_advice_code)code), "PBMPM_ADVICE_", 13));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_NO_GRAVITY", pbmpm_advice_name(PBMPM_ADVICE_NO_GRAVITY));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_UNKNOWN", pbmpm_advice_name((pbmpm_advice_code)9999));

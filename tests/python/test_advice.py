@@ -159,6 +159,37 @@ def test_obstacles_are_named_by_shape_and_index() -> None:
         assert (item.owner, item.collider) == (f"box collider {thin.identity[0]}", thin.identity)
 
 
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize(
+    ("wide", "foot", "water_at", "told"),
+    [
+        pytest.param(2.5, 0.0, 0.5, True, id="flush on the floor"),
+        pytest.param(1.4, 0.0, 0.5, False, id="fine enough"),
+        pytest.param(2.5, 0.2, 0.5, False, id="its foot is deep in the floor"),
+        pytest.param(2.5, 0.0, 2.5, False, id="nothing flows near it"),
+        pytest.param(2.5, 0.2, 1.0, True, id="water over its upper edge"),
+    ],
+)
+def test_a_wall_that_is_baked_too_coarsely(dimension: int, wide: float, foot: float, water_at: float, told: bool) -> None:
+    """A baked wall of 0.4 x 1.5 m beside water of 1 x 0.8 m on a box; the wall reaches `foot` into it. Its corners are what it might show."""
+    cell = 0.05
+    low, high = [-0.2, -foot, -2.0][:dimension], [0.2, 1.5 - foot, 2.0][:dimension]
+    corners = np.array([[(low, high)[i >> a & 1][a] for a in range(dimension)] for i in range(2**dimension)])
+    longest = max(b - a for a, b in zip(low, high, strict=True))
+    solid = pbmpm.bake_hull(corners, resolution=round(longest / (wide * cell)))
+    with pbmpm.World(dimension, cell, gravity=(0, -9.81, 0)[:dimension]) as world:
+        world.add_collider(pbmpm.Box((0, -0.5, 0)[:dimension], (5, 0.5, 1.5)[:dimension]))
+        wall = world.add_collider(pbmpm.Baked((0,) * dimension, world.load_solid(solid)))
+        world.fill(pbmpm.Box((-water_at - 0.2, 0.4, 0)[:dimension], (0.5, 0.4, 0.2)[:dimension]), world.add_material(pbmpm.Liquid()))
+        if water_at == 1.0:
+            world.fill(pbmpm.Box((-0.2, 1.1, 0)[:dimension], (0.3, 0.3, 0.2)[:dimension]), world.add_material(pbmpm.Liquid()))
+        found = [item for item in world.advice(1 / 60) if item.code is AdviceCode.COLLIDER_TOO_COARSE]
+        assert bool(found) == told
+        for item in found:
+            assert item.collider == wall.identity and item.figure == pytest.approx(solid.info.spacing / cell)
+            assert "spacing 0.075 m" in item.remedy and item.bound == 1.5
+
+
 def test_a_run_asks_once_before_its_first_step(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     asked: list[int] = []
     ask = Simulation.advice

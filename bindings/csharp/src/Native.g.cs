@@ -312,6 +312,9 @@ namespace Pbmpm
         EmitterOutside = 20,
         /// <summary>came true: an emitter found its place full, so it gave less than its rate. Figure: the share that was refused so far</summary>
         EmitterRefused = 21,
+        /// <summary>a baked obstacle has too coarse a grid at an edge that liquid or sand comes to. Figure: the width of its grid's cells [cells of
+        /// the world]</summary>
+        ColliderTooCoarse = 22,
         /// <summary>matter takes less room than its rest volume. Figure: the share that is lost at least, the measured loss less two standard errors</summary>
         VolumeLost = 14,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
@@ -345,6 +348,8 @@ namespace Pbmpm
         Integrator = 9,
         /// <summary>the obstacle's thickness [m]</summary>
         Collider = 10,
+        /// <summary>the obstacle's grid, baked with more resolution; the value is its baked_info.spacing [m]</summary>
+        BakedSpacing = 11,
     }
 
     /// <summary>What lines can show; sums of these choose.</summary>

@@ -37,6 +37,7 @@ class AdviceCode(Choice):
     NO_FRICTION = ffi.integer_const("PBMPM_ADVICE_NO_FRICTION")  #: Coulomb coefficient of the domain's floor below sand; 0 of walls that a viscous liquid or a rigid body slips on
     EMITTER_OUTSIDE = ffi.integer_const("PBMPM_ADVICE_EMITTER_OUTSIDE")  #: how far beyond a wall of the domain an emitter stands [cells]
     EMITTER_REFUSED = ffi.integer_const("PBMPM_ADVICE_EMITTER_REFUSED")  #: came true: share of an emitter's particles that found no space
+    COLLIDER_TOO_COARSE = ffi.integer_const("PBMPM_ADVICE_COLLIDER_TOO_COARSE")  #: width of a baked obstacle's grid cells [cells of the world]
     VOLUME_LOST = ffi.integer_const("PBMPM_ADVICE_VOLUME_LOST")  #: came true: share of the volume that is lost
     STRAIN_CLAMPED = ffi.integer_const("PBMPM_ADVICE_STRAIN_CLAMPED")  #: came true: share of particles at a bound of their strain
     NOT_SOLVED = ffi.integer_const("PBMPM_ADVICE_NOT_SOLVED")  #: came true: predicted error of the last substep [cells]
@@ -56,11 +57,12 @@ class Change(Choice):
     YOUNG_MODULUS = ffi.integer_const("PBMPM_CHANGE_YOUNG_MODULUS")  #: Young's modulus [Pa] of the material
     INTEGRATOR = ffi.integer_const("PBMPM_CHANGE_INTEGRATOR")  #: integrator
     COLLIDER = ffi.integer_const("PBMPM_CHANGE_COLLIDER")  #: thickness of the obstacle [m]
+    BAKED_SPACING = ffi.integer_const("PBMPM_CHANGE_BAKED_SPACING")  #: width of the grid cells of the obstacle's baked solid [m]
 
 
 _FEW = 64  # records that are asked for at first; there are seldom more
 
-_UNITS = {Change.CELL_SIZE: " m", Change.GRAVITY: " m/s^2", Change.YOUNG_MODULUS: " Pa", Change.COLLIDER: " m thick"}
+_UNITS = {Change.CELL_SIZE: " m", Change.GRAVITY: " m/s^2", Change.YOUNG_MODULUS: " Pa", Change.COLLIDER: " m thick", Change.BAKED_SPACING: " m"}
 
 
 @dataclass(frozen=True)

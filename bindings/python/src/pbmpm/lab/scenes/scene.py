@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Any, Literal, cast
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
 
 from ...materials import Elastic, Liquid, Sand, Visco
 from ...settings import DEFAULTS
@@ -140,7 +140,25 @@ class CapsulePart(Part):
     rotation: Rotation = 0.0
 
 
-class MeshPart(Part):
+class BakedPart(Part):
+    """What is baked to a grid of distances."""
+
+    _cell_size: float | None = PrivateAttr(None)
+
+    resolution: Annotated[int, Field(ge=4, le=1024)] | None = None
+    """Grid cells along the longest side. Default: as many as the surface needs, and cells no wider than the scene's."""
+
+    @property
+    def cell_size(self) -> float | None:
+        """Of the scene that it stands in [m]."""
+        return self._cell_size
+
+    def stand_in(self, cell_size: float) -> None:
+        """Tells it the cell size of its scene [m]."""
+        self._cell_size = cell_size
+
+
+class MeshPart(BakedPart):
     """A solid of any form: closed triangles (2D: edges), from a file or given here, baked to a grid of distances."""
 
     kind: Literal["mesh"]
@@ -153,7 +171,6 @@ class MeshPart(Part):
     elements: list[Annotated[list[Annotated[int, Field(ge=0)]], Field(min_length=2, max_length=3)]] | None = None
     hull: bool = False
     """The convex hull of the vertices."""
-    resolution: Annotated[int, Field(ge=4, le=1024)] = 64
 
     @model_validator(mode="after")
     def _has_one_source(self) -> MeshPart:
@@ -164,7 +181,7 @@ class MeshPart(Part):
         return self
 
 
-class HeightsPart(Part):
+class HeightsPart(BakedPart):
     """A body that is solid from heights over a lattice down to a base."""
 
     kind: Literal["heights"]
@@ -175,7 +192,6 @@ class HeightsPart(Part):
     spacing: Positive
     up: Annotated[int, Field(ge=0, le=2)] = 1
     thickness: Positive = 1.0
-    resolution: Annotated[int, Field(ge=4, le=1024)] | None = None
 
     @model_validator(mode="after")
     def _is_a_lattice(self) -> HeightsPart:
@@ -442,6 +458,13 @@ class Scene(Part):
     """The effects that the scene is meant to have; without the list they follow from what is in it."""
     pictures: PicturesPart = PicturesPart()
     notes: list[str] = []
+
+    @model_validator(mode="after")
+    def _solids_know_the_cells(self) -> Scene:
+        for collider in self.colliders:
+            if isinstance(collider.shape, BakedPart):
+                collider.shape.stand_in(self.cell_size)
+        return self
 
     @model_validator(mode="after")
     def _pictures_are_taken(self) -> Scene:

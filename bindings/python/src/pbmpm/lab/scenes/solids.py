@@ -15,6 +15,9 @@ from ..errors import InputError
 from ..hints import file_like
 from .scene import HeightsPart, MeshPart
 
+_MESH_CELLS = 64  # along the longest side of a mesh, at least: its features
+_MOST_VALUES = 2**24  # of one grid; they take 64 MB
+
 
 def cache_folder() -> Path:
     """Where baked solids are kept: `pbmpm/solids` in XDG_CACHE_HOME, or in ~/.cache."""
@@ -23,15 +26,15 @@ def cache_folder() -> Path:
 
 def baked_solid(part: MeshPart | HeightsPart, dimension: int) -> pbmpm.BakedSolid:
     """Bakes what a part describes, or finds it baked. InputError says what is wrong with it."""
-    return _bake(part.model_dump_json(), isinstance(part, MeshPart), dimension)
+    return _bake(part.model_dump_json(), part.cell_size, isinstance(part, MeshPart), dimension)
 
 
 @lru_cache(maxsize=64)
-def _bake(text: str, is_mesh: bool, dimension: int) -> pbmpm.BakedSolid:
+def _bake(text: str, cell_size: float | None, is_mesh: bool, dimension: int) -> pbmpm.BakedSolid:
     part = MeshPart.model_validate_json(text) if is_mesh else HeightsPart.model_validate_json(text)
     what = (part.file if isinstance(part, MeshPart) else None) or part.kind
     try:
-        solid = _bake_mesh(part, dimension) if isinstance(part, MeshPart) else _bake_heights(part)
+        solid = _bake_mesh(part, cell_size, dimension) if isinstance(part, MeshPart) else _bake_heights(part, cell_size)
     except pbmpm.PbmpmError as problem:
         raise InputError(f"{what}: {problem}") from None
     if solid.info.dimension != dimension:
@@ -39,24 +42,36 @@ def _bake(text: str, is_mesh: bool, dimension: int) -> pbmpm.BakedSolid:
     return solid
 
 
-def _bake_mesh(part: MeshPart, dimension: int) -> pbmpm.BakedSolid:
+def _bake_mesh(part: MeshPart, cell_size: float | None, dimension: int) -> pbmpm.BakedSolid:
     if part.file is not None and part.file.endswith(".sdf"):
         return pbmpm.BakedSolid.load(part.file)
     vertices, elements = _read_mesh(part.file, dimension) if part.file else (part.vertices, part.elements)
+    place = np.array(vertices, dtype=np.float64)
+    resolution = part.resolution or _resolution(np.ptp(place, axis=0), cell_size, np.ptp(place, axis=0).max() / _MESH_CELLS)
     if part.hull:
-        return pbmpm.bake_hull(np.array(vertices), resolution=part.resolution, cache=cache_folder())
-    return pbmpm.bake_mesh(np.array(vertices), np.array(elements), resolution=part.resolution, cache=cache_folder())
+        return pbmpm.bake_hull(place, resolution=resolution, cache=cache_folder())
+    return pbmpm.bake_mesh(place, np.array(elements), resolution=resolution, cache=cache_folder())
 
 
-def _bake_heights(part: HeightsPart) -> pbmpm.BakedSolid:
+def _bake_heights(part: HeightsPart, cell_size: float | None) -> pbmpm.BakedSolid:
+    heights = np.array(part.heights)
+    sides = [*((count - 1) * part.spacing for count in heights.shape), np.ptp(heights) + part.thickness]
     return pbmpm.bake_heights(
-        np.array(part.heights),
+        heights,
         part.spacing,
         up=part.up,
         thickness=part.thickness,
-        resolution=part.resolution,
+        resolution=part.resolution or _resolution(np.array(sides), cell_size, part.spacing),
         cache=cache_folder(),
     )
+
+
+def _resolution(sides: np.ndarray, cell_size: float | None, spacing: float) -> int:
+    """Grid cells along the longest side, no wider than `spacing` and the scene's own cells, as far as the grid does not grow too large. In
+    coarser grids water beside an edge does not rest."""
+    smallest = (np.prod(np.maximum(sides, spacing)) / _MOST_VALUES) ** (1 / len(sides))
+    width = max(min(spacing, cell_size or spacing), smallest)
+    return int(np.clip(np.ceil(sides.max() / width - 1e-6), 4, 1024))
 
 
 def _read_mesh(path: str, dimension: int) -> tuple[np.ndarray, np.ndarray]:
