@@ -100,7 +100,7 @@ static void axes_along(int dimension, const double normal[3], double along[2][3]
  * go on a step of the grid beside a place on it, along each of its axes: where it does to one side alone, it is taken from there. False: it does not. */
 static bool leave_edge(const Near *near, const Obstacle *o, double place[3], double normal[3])
 {
-    static const double GOES_ON = 0.9; /* cosine. At an edge of a right angle it is 0.7, on a ball whose radius is three steps 0.94 */
+    static const double GOES_ON = 0.9; /* cosine: at an edge of a right angle it is 0.7, on a ball whose radius is three steps 0.94 */
     const double step = field_solid(near, o)->grid->spacing / near->cell_size;
     double along[2][3];
     axes_along(near->dimension, normal, along);
@@ -137,11 +137,16 @@ static double before_of(const Near *near, const Obstacle *o, const double place[
     return grid && is_at_edge(near, o, place) ? BEFORE + grid->spacing / near->cell_size : BEFORE;
 }
 
-/* Whether the space is open before a place where these faces meet. */
+/* Whether the space is open before a place where these faces meet. A face may lie farther out by as much as the edge there is rounded. */
 static bool is_open_before(const Near *near, const double place[3], const Face *const *face, int count)
 {
+    double rounded = 0.0;
+    for (int k = 0; k < count; k++) {
+        const Obstacle *owner = face[k]->obstacle;
+        if (field_solid(near, owner)->grid && is_at_edge(near, owner, place)) rounded = fmax(rounded, rounding_of(near, owner));
+    }
     for (int i = 0; i < near->count; i++) {
-        const double length = before_of(near, near->obstacle[i], place);
+        const double length = fmax(before_of(near, near->obstacle[i], place), BEFORE + rounded);
         double before[3] = {place[0], place[1], place[2]};
         for (int k = 0; k < count; k++) ahead(near, before, length, face[k]->normal, before);
         if (solid_gap(field_solid(near, near->obstacle[i]), before) <= ON_SURFACE * near->cell_size) return false;
@@ -270,6 +275,43 @@ static bool bounds_space(const Near *near, const Face *face)
     return is_on_face(near, face, face->foot) && is_open_before(near, face->foot, &face, 1);
 }
 
+/* Of a point, in cells: the distances of the two obstacles that it is deepest in, and how exactly the surfaces there are known. */
+typedef struct Depths {
+    double least, second, exact;
+} Depths;
+
+static Depths depths_at(const Near *near, const double point[3])
+{
+    Depths depths = {INFINITY, INFINITY, ON_SURFACE};
+    for (int i = 0; i < near->count; i++) {
+        const double gap = solid_gap(field_solid(near, near->obstacle[i]), point) / near->cell_size, rounding = rounding_of(near, near->obstacle[i]);
+        depths.second = fmin(depths.second, fmax(depths.least, gap));
+        depths.least = fmin(depths.least, gap);
+        if (gap <= rounding) depths.exact = fmax(depths.exact, rounding);
+    }
+    return depths;
+}
+
+/* Where obstacles stand flush, each ends at their joint, though it is inside of their union: no surface that is as near as surfaces are exact has the space open before it. */
+static bool is_in_joint(const Near *near, const double point[3], const Depths *depths)
+{
+    if (depths->least < -depths->exact || depths->second > depths->exact) return false;
+    for (int i = 0; i < near->count; i++) {
+        const Obstacle *o = near->obstacle[i];
+        double normal[3];
+        const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
+        const Face nearest = face_at(near, o, point, distance, normal), *face = &nearest;
+        if (distance <= depths->exact && is_open_before(near, nearest.foot, &face, 1)) return false;
+    }
+    return true;
+}
+
+bool field_holds(const Near *near, const double point[3])
+{
+    const Depths depths = depths_at(near, point);
+    return depths.least < 0.0 || is_in_joint(near, point, &depths);
+}
+
 /* ---- Inside: the shallowest way out ---- */
 
 /* The place nearest to a point that lies on `count` planes, relative to the point [cells]: sum_i x_i n_i with n_j . sum_i x_i n_i = -d_j. False: they are nearly
@@ -306,10 +348,11 @@ static double corner_distance(const Near *near, const double point[3], const Fac
     return is_open_before(near, place, face, count) ? sqrt(dot3(way, way)) : INFINITY;
 }
 
-static int faces_inside(const Near *near, const double point[3], Face face[FIELD_FACES])
+static int faces_inside(const Near *near, const double point[3], const Depths *depths, double reach, Face face[FIELD_FACES])
 {
+    const double exact = depths->exact; /* what is no farther before a surface is behind it */
     Face all[CANDIDATES];
-    const int candidates = faces_around(near, point, NODE_REACH, all);
+    const int candidates = faces_around(near, point, reach, all);
     double best = INFINITY;
     int count = 0;
     for (int i = 0; i < candidates; i++) {
@@ -321,7 +364,7 @@ static int faces_inside(const Near *near, const double point[3], Face face[FIELD
     for (int i = 0; i < candidates; i++)
         for (int j = i + 1; j < candidates; j++) {
             const Face *edge[3] = {&all[i], &all[j], NULL};
-            if (all[i].distance > ON_SURFACE || all[j].distance > ON_SURFACE) continue;
+            if (all[i].distance > exact || all[j].distance > exact) continue;
             if (fmax(-all[i].distance, -all[j].distance) >= best) continue;
             double distance = corner_distance(near, point, edge, 2);
             if (distance < best - ON_SURFACE) {
@@ -332,7 +375,7 @@ static int faces_inside(const Near *near, const double point[3], Face face[FIELD
             }
             for (int k = j + 1; k < candidates && near->dimension == 3; k++) {
                 edge[2] = &all[k];
-                if (all[k].distance > ON_SURFACE || -all[k].distance >= best) continue;
+                if (all[k].distance > exact || -all[k].distance >= best) continue;
                 distance = corner_distance(near, point, edge, 3);
                 if (distance >= best - ON_SURFACE) continue;
                 best = distance;
@@ -506,10 +549,17 @@ static int add_beside(const Near *near, const double point[3], double reach, Fac
 
 int field_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
 {
-    const bool outside = field_distance(near, point) > ON_SURFACE;
-    const int count = outside ? faces_seen(near, point, reach, face) : faces_inside(near, point, face);
+    const Depths depths = depths_at(near, point);
+    const bool outside = depths.least > ON_SURFACE && !is_in_joint(near, point, &depths);
+    const int count = outside ? faces_seen(near, point, reach, face) : faces_inside(near, point, &depths, NODE_REACH, face);
     if (outside) sort_by_distance(face, 0, count);
     return outside || count == 0 ? count : add_beside(near, point, reach, face, count);
+}
+
+int field_joint_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
+{
+    const Depths depths = depths_at(near, point);
+    return is_in_joint(near, point, &depths) ? faces_inside(near, point, &depths, reach, face) : 0;
 }
 
 int field_faces_from(const Near *near, const double place[3], const double point[3], double reach, Face face[FIELD_FACES])

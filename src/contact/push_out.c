@@ -123,16 +123,16 @@ static void place_of(const ContactFrame *frame, const Particles *p, uint32_t row
         point[a] = a < p->dimension ? ((double)(p->cell[a][row] - frame->grid->anchor[a]) + (double)p->fraction[a][row]) * frame->cell_size : 0.0;
 }
 
-/* Moves a particle out through a face: at once out of a wall, and at most a cell per substep out of anything else, so that an obstacle that lands on matter does
- * not fling it. */
-static void push_through(const ContactFrame *frame, const Face *face, const Pushed *one, ImpulseSum *sum)
+/* How far a particle would have to move out through a face [cells]; up: not outside by a rounding. */
+static double depth_behind(const Face *face) { return field_rounded(-face->distance + 0.5 * FIELD_ROUNDING); }
+
+static void push_through(const ContactFrame *frame, const Face *face, double length, const Pushed *one, ImpulseSum *sum)
 {
     const View view = view_from(frame, face->obstacle, one->block);
-    const double depth = field_rounded(-face->distance + 0.5 * FIELD_ROUNDING); /* up: not outside by a rounding */
     double way[3], normal[3];
     for (int a = 0; a < 3; a++) {
         normal[a] = field_rounded(face->normal[a]);
-        way[a] = (face->obstacle->wall ? depth : fmin(depth, 1.0)) * normal[a];
+        way[a] = length * normal[a];
     }
     put_back(frame, &view, one, way, normal, sum);
 }
@@ -149,7 +149,7 @@ static bool push_inside(const ContactFrame *frame, const Near *near, const Pushe
         face.distance = solid_distance(field_solid(near, near->obstacle[i]), point, face.normal) / near->cell_size;
         if (face.distance >= 0.0) continue;
         if (!find_sum(frame, book, near->obstacle[i], &sum)) return false;
-        push_through(frame, &face, one, sum);
+        push_through(frame, &face, depth_behind(&face), one, sum);
     }
     return true;
 }
@@ -183,6 +183,31 @@ static bool has_way_out(const Near *near, const double point[3], Face *face)
     return !is_behind_wall(near, end);
 }
 
+/* By so many cells per substep an obstacle that lands on matter pushes it away: it does not fling it. */
+static const double GENTLE = 1.0;
+
+/* Moves a particle out through one face after the other, until it is before all of them, for what leads out of one may lead into the next (L. Bregman, "Finding the
+ * common point of convex sets by the method of successive projection", Dokl. Akad. Nauk SSSR 162, 1965). At once out of a wall, and by at most `most` cells out of
+ * anything else. False: no room to book in. */
+static bool push_through_all(const ContactFrame *frame, Face *face, int count, double most, const Pushed *one, const Book *book)
+{
+    ImpulseSum *sum[FIELD_FACES] = {NULL};
+    double left[FIELD_FACES];
+    for (int i = 0; i < count; i++) {
+        left[i] = face[i].obstacle->wall ? INFINITY : most;
+        if ((count > 1 || face[i].distance < 0.0) && !find_sum(frame, book, face[i].obstacle, &sum[i])) return false;
+    }
+    for (int round = 0; round < 2 * count - 1; round++)
+        for (int i = 0; i < count; i++) {
+            const double length = fmin(depth_behind(&face[i]), left[i]);
+            if (face[i].distance >= 0.0 || length <= 0.0) continue;
+            push_through(frame, &face[i], length, one, sum[i]);
+            left[i] -= length;
+            for (int k = 0; k < count; k++) face[k].distance += length * dot3(face[i].normal, face[k].normal);
+        }
+    return true;
+}
+
 /* A particle that ended inside obstacles is put back to the surface of their union. Its velocity into the surface is taken away. False: no room to book in. */
 static bool push_particle(const ContactFrame *frame, const Near *close, const double centre[3], double reach, const Pushed *one, const Book *book)
 {
@@ -191,22 +216,19 @@ static bool push_particle(const ContactFrame *frame, const Near *close, const do
     Near all, some;
     double point[3];
     Face face[FIELD_FACES];
-    ImpulseSum *sum[FIELD_FACES] = {NULL};
     place_of(frame, p, row, point);
-    if (field_distance(close, point) >= 0.0) return true;
+    if (!field_holds(close, point)) return true;
     if (!push_inside(frame, close, one, book)) return false;
     place_of(frame, p, row, point);
-    if (field_distance(close, point) >= 0.0) return true;
+    if (!field_holds(close, point)) return true;
     field_near(&all, frame, centre, reach + 2.0 * NODE_REACH, true);
     const Near *near = field_meeting(&all, contacts_row_groups(frame, p, row), &some);
     int count = field_faces(near, point, NODE_REACH, face);
     if (stays(frame, near, p, row, point, count)) return true;
+    const int joint = field_joint_faces(near, point, reach, face); /* however far it fell in */
+    if (joint > 0) return push_through_all(frame, face, joint, INFINITY, one, book);
     if (count == 0) count = has_way_out(near, point, &face[0]);
-    for (int i = 0; i < count; i++)
-        if (face[i].distance < 0.0 && !find_sum(frame, book, face[i].obstacle, &sum[i])) return false;
-    for (int i = 0; i < count; i++)
-        if (face[i].distance < 0.0) push_through(frame, &face[i], one, sum[i]);
-    return true;
+    return push_through_all(frame, face, count, GENTLE, one, book);
 }
 
 /* The distance from a convex solid is at least that from the plane through its place that is nearest to some point, with the normal there. In cells, of places from a

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from harness import G, MEAN, SURFACE, Frame, Run, case, lattice, pool, rms, tank
-from pbmpm import Baked, Box, Field, Friction, Liquid, Plane, Region, Sphere, bake_heights, bake_mesh
+from pbmpm import Baked, Box, Field, Friction, Liquid, Plane, Region, Sand, Sphere, bake_heights, bake_mesh
 
 CELL, WIDTH, DEPTH = 0.05, 1.6, 0.6
 REST = "water at rest stays at rest; 10 mm/s is a fifth of a cell per second"
@@ -16,7 +16,7 @@ REST = "water at rest stays at rest; 10 mm/s is a fifth of a cell per second"
 
 def _places(kind: str) -> dict[str, dict[str, Any]]:
     offsets = {f"{kind}_{cells}": dict(kind=kind, cells=float(cells)) for cells in ("0.1", "0.5", "0.7")}
-    return {**offsets, **{f"turned_{angle}_{kind}": dict(kind=kind, angle=angle) for angle in (10, 20, 45)}}
+    return {**offsets, **{f"turned_{angle}_{kind}": dict(kind=kind, angle=angle) for angle in (10, 15, 20, 28, 36, 45)}}
 
 
 @case(
@@ -209,6 +209,41 @@ def terrain(run: Run) -> None:
 
 
 @case(
+    water=dict(material=Liquid()),
+    water_fine=dict(material=Liquid(), wide=0.63),
+    water_off=dict(material=Liquid(), shift=0.55),
+    sand=dict(material=Sand()),
+    sand_off=dict(material=Sand(), shift=0.3),
+    sand_steep=dict(material=Sand(), shift=0.3, steep=0.8),
+    water_3d=dict(material=Liquid(), shift=0.3, sides=(1.0, 0.3)),
+    sand_3d=dict(material=Sand(), shift=0.3, sides=(1.0, 0.3)),
+)
+def flush_terrain(run: Run, material: Liquid | Sand, wide: float = 1.0, shift: float = 0.0, steep: float = 0.4, sides: tuple[float, ...] = (2.0,)) -> None:
+    """A ridge that is baked from heights, with cells as wide as `wide` of the world's. Its sides stand flush on boxes; matter falls on it from 0.3 m and
+    runs down to them."""
+    dimension, long = 1 + len(sides), sides[0]
+    off, down = np.insert(np.full(len(sides), shift * CELL), 1, 0.0), np.insert(np.array(sides), 1, 0.0)
+    heights = (0.6 - steep * np.abs(np.arange(0, long + 0.05, 0.1) - long / 2)).astype(np.float32)
+    ground = lambda at: 0.6 - steep * np.abs(at[:, 0] - long / 2)  # noqa: E731
+    if dimension == 3:
+        heights = np.repeat(heights[:, None], round(sides[1] / 0.1) + 1, axis=1)
+    p = lattice(0 * down, np.where(down == 0, 1.1, down), CELL / 2)
+    with run.world(dimension, CELL) as world:
+        solid = world.load_solid(bake_heights(heights, 0.1, thickness=0.6, resolution=round(long / (wide * CELL))))
+        world.add_collider(Baked(off.tolist(), solid))
+        for a in range(0, dimension, 2):
+            for middle in (-0.2, down[a] + 0.2):
+                half, at = np.full(dimension, 2.5), np.full(dimension, 1.0)
+                half[a], at[a] = 0.2, middle + off[a]
+                world.add_collider(Box(at.tolist(), half.tolist()))
+        world.add_particles(world.add_material(material), (p[p[:, 1] > ground(p)] + off + np.eye(dimension)[1] * 0.3).astype(np.float32))
+        run.steps(world, 4 if dimension == 2 else 2)
+        q = world.positions.array() - off
+        inside = (np.abs(q - down / 2)[:, ::2] > down[::2] / 2 + CELL / 4).any(axis=1)
+        run.check("particles below the ground or in the walls", ((ground(q) - q[:, 1] > CELL) | inside).sum(), 0, 0, why="what stands flush does not leak")
+
+
+@case(
     wide_off=dict(cells=16, depth=6, kind="boxes"),
     narrow_off=dict(cells=6, depth=12, kind="boxes"),
     turned_20=dict(cells=10, depth=8, kind="boxes", angle=20.0),
@@ -330,6 +365,8 @@ def block_wall(run: Run, offset: float) -> None:
     coarse=dict(floor="box", resolution=24),
     coarse_off=dict(floor="box", resolution=27, shift=0.4),
     medium_off=dict(floor="box", resolution=45, shift=0.55),
+    one_and_a_half_cells=dict(floor="box", resolution=16, shift=0.4),
+    two_cells=dict(floor="box", resolution=12),
     on_box_3d=dict(floor="box", dimension=3),
 )
 def mesh_wall(run: Run, floor: str, shift: float = 0.0, angle: float = 0.0, dimension: int = 2, resolution: int = 64) -> None:

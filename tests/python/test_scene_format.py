@@ -294,6 +294,14 @@ def _start(scene: dict[str, Any]) -> Simulation:
     return Simulation(parsed, RunSettings.of(parsed))
 
 
+def test_friction_may_be_a_number() -> None:
+    scene = parse_scene(changed("colliders", [{"shape": PLANE, "friction": 0.7}, {"shape": PLANE, "friction": "stick"}]))
+    assert [(part.friction, part.friction_coefficient) for part in scene.colliders] == [("coulomb", 0.7), ("stick", 0.2)]
+    for wrong, said in (({"friction": -1}, "friction_coefficient"), ({"friction": 0.7, "friction_coefficient": 0.2}, "is there as well"), ({"friction": True}, "friction")):
+        with pytest.raises(InputError, match=said):
+            parse_scene(changed("colliders", [{"shape": PLANE, **wrong}]))
+
+
 def test_fills_leave_out_what_is_in_an_obstacle() -> None:
     scene = copy.deepcopy(VALID)
     scene["colliders"] = [{"shape": {"kind": "box", "position": [0.5, 0.5], "half_extents": [0.1, 0.1]}}]

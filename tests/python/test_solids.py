@@ -17,8 +17,8 @@ from pbmpm.lab.pictures.flat import draw_2d
 from pbmpm.lab.pictures.look import look_of
 from pbmpm.lab.loading import load_scene
 from pbmpm.lab.parsing import parse_scene
+from pbmpm.lab.scenes.solids import baked_solid, distance_function
 from pbmpm.lab.simulation import RunSettings, Simulation
-from pbmpm.lab.scenes.solids import distance_function
 
 SQUARE = np.array([(-1, -0.5), (1, -0.5), (1, 0.5), (-1, 0.5)], float)
 AROUND = np.array([(0, 1), (1, 2), (2, 3), (3, 0)])
@@ -219,6 +219,26 @@ def test_a_scene_with_heights_and_a_file(tmp_path: Path) -> None:
         simulation.step()
 
 
+def test_scenes_bake_as_finely_as_their_cells(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And as their own features need, but for what would take too much memory, and what says its resolution."""
+    heights = {"kind": "heights", "position": [0, 0], "heights": [0.0, 0.3] * 4 + [0.0], "spacing": 1.5}
+    wide = {"kind": "mesh", "position": [0, 0], "vertices": (10 * SQUARE).tolist(), "elements": AROUND.tolist()}
+    small = {**wide, "vertices": (0.1 * SQUARE).tolist()}
+    cube = {"kind": "mesh", "position": [0, 0, 0], "vertices": (1000 * CUBE).tolist(), "hull": True}
+    side = float(np.ptp(SQUARE))
+
+    def spacing(part: dict[str, Any], **scene: Any) -> float:
+        shape = parse_scene({**_scene(part), **scene}).colliders[0].shape
+        return baked_solid(shape, len(part["position"])).info.spacing
+
+    assert spacing(heights) == pytest.approx(0.1) and spacing(heights, cell_size=2, domain=None) == pytest.approx(1.5)
+    assert spacing({**heights, "resolution": 10}) == pytest.approx(1.2)
+    assert spacing(wide) == pytest.approx(0.1) and spacing(small) == pytest.approx(0.1 * side / 64)
+    fills = [{"shape": {"kind": "box", "position": [0, 0, 0], "half_extents": [1, 1, 1]}, "material": "water"}]
+    monkeypatch.setattr("pbmpm.lab.scenes.solids._MOST_VALUES", 10**3)
+    assert spacing(cube, dimension=3, gravity=[0, -9.81, 0], domain=None, fills=fills) == pytest.approx(200)
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -380,3 +400,26 @@ def test_bodies_that_make_no_sense() -> None:
         parse_scene(_scene(box, body={"mass": 1.0}, motion={"keyframes": frames}))
     with pytest.raises(InputError, match="body.mass"):
         parse_scene(_scene(box, body={"mass": 0.0}))
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("floor", ["box", "baked"])
+@pytest.mark.parametrize("wall", ["box", "domain"])
+@pytest.mark.parametrize("depth", [0.3, 1.2, 2.5])
+def test_what_is_in_the_joint_of_flush_obstacles_comes_out(dimension: int, floor: str, wall: str, depth: float) -> None:
+    """A floor ends where a wall stands. A particle exactly between them, so many cells deep, is in neither; it moves down at 3 m/s."""
+    cell, half = 0.1, np.ones(dimension)
+    domain = ([0, -2, -1][:dimension], [3, 3, 1][:dimension]) if wall == "domain" else None
+    with pbmpm.World(dimension, cell, gravity=(0, -9.81, 0)[:dimension], domain=domain) as world:
+        middle = [1, -1, 0][:dimension]
+        if floor == "baked":
+            corners = np.array([[(-1, 1)[i >> a & 1] for a in range(dimension)] for i in range(2**dimension)])
+            world.add_collider(pbmpm.Baked(middle, world.load_solid(pbmpm.bake_hull(corners, resolution=20))))
+        else:
+            world.add_collider(pbmpm.Box(middle, half))
+        if wall == "box":
+            world.add_collider(pbmpm.Box([-1, 0, 0][:dimension], [1, 2, 1][:dimension]))
+        world.add_particles(world.add_material(pbmpm.Liquid()), np.array([[0, -depth * cell, 0][:dimension]]), velocities=np.array([[0, -3, 0][:dimension]]))
+        for _ in range(4):
+            world.step(1 / 60)
+        assert world.positions.array()[0] == pytest.approx([0] * dimension, abs=1e-4 * cell)

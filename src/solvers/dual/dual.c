@@ -512,7 +512,7 @@ static double held_of(const World *world, const Substep *substep, double trusted
  * at once, which threw a body with 1.08 times its energy (H11, 60 Hz x 1). So bodies begin with the n for which the new iterations hold what the old ones held. */
 double dual_continued(const World *world, const Substep *substep, int before, int now)
 {
-    enum { HALVINGS = 30 };
+    enum { HALVINGS = 30 }; /* of the interval: what is left of it is less than floats tell */
     if (solver_holds_liquid(world)) return before; /* they are asked for far more there, see shared_stiffness_cap() */
     const double wanted = held_of(world, substep, before, before);
     double less = 0.0, enough = before;

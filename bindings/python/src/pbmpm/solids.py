@@ -127,7 +127,7 @@ class LoadedSolid(Member):
 def bake_mesh(
     vertices: npt.ArrayLike, elements: npt.ArrayLike, *, resolution: int | None = None, cache: str | Path | None = None
 ) -> BakedSolid:
-    """Bakes a closed mesh: triangles in 3D, the edges of polygons in 2D, all wound one way.
+    """Bakes a closed mesh: triangles in 3D, the edges of polygons in 2D. All run in one sense, inward or outward.
 
     Args:
         vertices: shape (n, d) [m]; d is 2 or 3.

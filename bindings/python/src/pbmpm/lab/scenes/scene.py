@@ -290,10 +290,21 @@ class ColliderPart(Part):
     shape: AnyObstaclePart
     friction: Literal["coulomb", "stick", "slip"] = "coulomb"
     friction_coefficient: Annotated[float, Field(ge=0, le=100)] = 0.2
+    """A number for `friction` is this one, of Coulomb's law."""
     meets: Annotated[list[str], Field(min_length=1)] | None = None
     """Names of the materials that it acts on; default all."""
     motion: MotionPart | None = None
     body: BodyPart | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _friction_may_be_a_number(cls, data: Any) -> Any:
+        """As that of the domain is."""
+        if not isinstance(data, dict) or isinstance(data.get("friction"), bool) or not isinstance(data.get("friction"), int | float):
+            return data
+        if "friction_coefficient" in data:
+            raise ValueError("friction: a number is the friction_coefficient, which is there as well")
+        return {**data, "friction": "coulomb", "friction_coefficient": data["friction"]}
 
     @model_validator(mode="after")
     def _moves_one_way(self) -> ColliderPart:
