@@ -221,7 +221,7 @@ def test_a_scene_with_heights_and_a_file(tmp_path: Path) -> None:
 
 def test_scenes_bake_as_finely_as_their_cells(monkeypatch: pytest.MonkeyPatch) -> None:
     """And as their own features need, but for what would take too much memory, and what says its resolution."""
-    heights = {"kind": "heights", "position": [0, 0], "heights": [0.0, 0.3] * 4 + [0.0], "spacing": 1.5}
+    heights = {"kind": "heights", "position": [0, 0], "heights": [0.0, 0.3] * 4 + [0.0], "spacing": 1.5, "thickness": 4}
     wide = {"kind": "mesh", "position": [0, 0], "vertices": (10 * SQUARE).tolist(), "elements": AROUND.tolist()}
     small = {**wide, "vertices": (0.1 * SQUARE).tolist()}
     cube = {"kind": "mesh", "position": [0, 0, 0], "vertices": (1000 * CUBE).tolist(), "hull": True}

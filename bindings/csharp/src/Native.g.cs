@@ -1720,9 +1720,9 @@ namespace Pbmpm.Native
     }
 
     /// <summary>A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] and
-    /// j * spacing[1] along the axes other than `up` (2D: i alone). Let terrain reach some cells past the walls
-    /// of a domain. If its side is flush with a wall, give it a grid of at most 1.5 cells of the world: beside a coarser one
-    /// matter may slip down.</summary>
+    /// j * spacing[1] along the axes other than `up` (2D: i alone). Its sides may stand flush on
+    /// walls if its grid is at most 1.5 cells of the world wide. Else let it reach some cells past them, or matter may slip
+    /// down (PBMPM_ADVICE_COLLIDER_TOO_COARSE).</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct HeightsDef
     {
