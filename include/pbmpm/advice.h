@@ -14,7 +14,8 @@ extern "C" {
 typedef enum pbmpm_advice_code {
     /* Foreseen from the scene and the settings. */
     PBMPM_ADVICE_NO_GRAVITY = 1,       /**< settings.gravity is 0, and no uniform force acts */
-    PBMPM_ADVICE_FALLS_FOREVER = 2,    /**< matter has nothing below it along gravity, and no kill bounds take it. Figure: share of the matter */
+    PBMPM_ADVICE_FALLS_FOREVER = 2,    /**< matter has nothing below it along gravity, and no kill bounds take it. Or kill bounds take a part of it that was put
+                                            there, before the first step. Figure: share of the matter */
     PBMPM_ADVICE_IGNORED = 3,          /**< a parameter that was changed does nothing here; the text names it. Figure: its value; bound: its default */
     PBMPM_ADVICE_POOL_TOO_DEEP = 4,    /**< a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2, dt the substep's; with the paper's solver
                                             the strain at the bottom */

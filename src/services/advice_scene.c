@@ -18,32 +18,57 @@ void advise_no_gravity(Adviser *adviser)
     adviser_give(adviser, advice);
 }
 
-void advise_falls_forever(Adviser *adviser)
+static const uint32_t GOLDEN = 2654435769u; /* 2^32 times the golden ratio's fraction */
+
+/* Of so many particles, and of the emitters if they count, the share that has nothing below it. */
+static double share_that_falls(const World *world, uint32_t samples, bool with_emitters)
 {
-    enum { SAMPLES = 64 }; /* so that advice costs the same for any number of particles */
-    static const double FEW = 0.05; /* share of the samples: three of 64, which may be spray */
-    const World *world = adviser->world;
     const Particles *p = &world->particles;
-    if (world->sinks.bounds.enabled || gravity_strength(world) == 0.0 || adviser_wall_below(world)) return;
     const bool hangs = adviser_any_sticks(world);
-    const uint32_t step = p->count / SAMPLES + 1;
+    const uint32_t looks = p->count < samples ? p->count : samples;
     double looked = 0.0, falls = 0.0;
-    for (uint32_t row = 0; row < p->count; row += step) {
+    for (uint32_t i = 0; i < looks; i++) {
+        const uint32_t row = (uint32_t)((uint64_t)(i * GOLDEN) * p->count >> 32); /* evenly spread, and out of step with any lattice */
         if (hangs && material_is_solid(&world->materials, p->material[row])) continue;
         double at[3] = {0};
         for (int a = 0; a < p->dimension; a++) at[a] = particles_coordinate(p, row, a) * (double)world->def.cell_size;
         looked += 1.0;
         falls += !adviser_lands(world, p->material[row], at);
     }
-    for (uint32_t e = 0; e < world->emitters.used; e++) {
+    for (uint32_t e = 0; with_emitters && e < world->emitters.used; e++) {
         const Emitter *emitter = &world->emitters.slot[e];
         if (emitter->generation == 0) continue;
         const double at[3] = {(double)emitter->shape.position[0], (double)emitter->shape.position[1], (double)emitter->shape.position[2]};
         looked += 1.0;
         falls += !adviser_lands(world, emitter->def.material.index, at);
     }
-    if (looked == 0.0 || falls <= FEW * looked) return;
-    pbmpm_advice advice = {.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)(falls / looked), .bound = (float)FEW,
+    return looked > 0.0 ? falls / looked : 0.0;
+}
+
+/* With kill bounds, before the first step: a small share that has nothing below it sticks out behind a wall, by mistake. */
+static void advise_sticks_out(Adviser *adviser)
+{
+    enum { SAMPLES = 1024 }; /* once in a scene */
+    static const double FEW = 0.005, MANY = 0.5; /* fewer than a row of particles at a wall; more are meant to fall */
+    const double share = adviser->world->step_count == 0 ? share_that_falls(adviser->world, SAMPLES, false) : 0.0;
+    if (share <= FEW || share >= MANY) return;
+    adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)share, .bound = (float)FEW,
+                                         .text = "this share of matter was put where nothing is below it, behind a wall perhaps: it falls until the kill bounds take it out"});
+}
+
+void advise_falls_forever(Adviser *adviser)
+{
+    enum { SAMPLES = 64 }; /* so that advice costs the same for any number of particles */
+    static const double FEW = 0.05; /* share of the samples: three of 64, which may be spray */
+    const World *world = adviser->world;
+    if (gravity_strength(world) == 0.0 || adviser_wall_below(world)) return;
+    if (world->sinks.bounds.enabled) {
+        advise_sticks_out(adviser);
+        return;
+    }
+    const double share = share_that_falls(world, SAMPLES, true);
+    if (share <= FEW) return;
+    pbmpm_advice advice = {.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)share, .bound = (float)FEW,
                            .text = "this share of matter and emitters has nothing to fall on, and no kill bounds take it out: it falls for ever at full cost"};
     adviser_by_value(PBMPM_CHANGE_KILL_BOUNDS, 0.0, 0.0, &advice);
     adviser_give(adviser, advice);

@@ -124,6 +124,10 @@ static void check_falling(int32_t dimension)
     OK(pbmpm_kill_bounds_init(&bounds, sizeof bounds));
     bounds.enabled = 1;
     OK(pbmpm_world_set_kill_bounds(world, &bounds));
+    expect_none(world, PBMPM_ADVICE_FALLS_FOREVER); /* all of it is meant to fall */
+    create_collider(world, box_shape(-0.04f, 0, 0, 0.5f, 0.5f, 2), false); /* some of it sticks out beyond */
+    TEST_ASSERT_FLOAT_WITHIN(0.02f, 0.05f, expect(world, PBMPM_ADVICE_FALLS_FOREVER)->figure);
+    OK(pbmpm_world_step(world, DT));
     expect_none(world, PBMPM_ADVICE_FALLS_FOREVER);
 }
 

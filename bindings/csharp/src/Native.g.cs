@@ -270,7 +270,8 @@ namespace Pbmpm
     {
         /// <summary>settings.gravity is 0, and no uniform force acts</summary>
         NoGravity = 1,
-        /// <summary>matter has nothing below it along gravity, and no kill bounds take it. Figure: share of the matter</summary>
+        /// <summary>matter has nothing below it along gravity, and no kill bounds take it. Or kill bounds take a part of it that was put
+        /// there, before the first step. Figure: share of the matter</summary>
         FallsForever = 2,
         /// <summary>a parameter that was changed does nothing here; the text names it. Figure: its value; bound: its default</summary>
         Ignored = 3,
