@@ -275,35 +275,51 @@ static bool bounds_space(const Near *near, const Face *face)
     return is_on_face(near, face, face->foot) && is_open_before(near, face->foot, &face, 1);
 }
 
-/* Of a point, in cells: the distances of the two obstacles that it is deepest in, and how exactly the surfaces there are known. */
+/* Of a point, in cells: the distances of the two obstacles that it is deepest in, and by how much the surfaces there may be off. */
 typedef struct Depths {
-    double least, second, exact;
+    double least, second, tolerance;
 } Depths;
 
 static Depths depths_at(const Near *near, const double point[3])
 {
     Depths depths = {INFINITY, INFINITY, ON_SURFACE};
     for (int i = 0; i < near->count; i++) {
-        const double gap = solid_gap(field_solid(near, near->obstacle[i]), point) / near->cell_size, rounding = rounding_of(near, near->obstacle[i]);
+        const Obstacle *o = near->obstacle[i];
+        const double gap = solid_gap(field_solid(near, o), point) / near->cell_size, rounding = rounding_of(near, o);
         depths.second = fmin(depths.second, fmax(depths.least, gap));
         depths.least = fmin(depths.least, gap);
-        if (gap <= rounding) depths.exact = fmax(depths.exact, rounding);
+        if (near->count > 1 && rounding > depths.tolerance && gap <= rounding && is_at_edge(near, o, point)) depths.tolerance = rounding;
     }
     return depths;
 }
 
-/* Where obstacles stand flush, each ends at their joint, though it is inside of their union: no surface that is as near as surfaces are exact has the space open before it. */
+/* Whether faces of two obstacles lie on each other near a point. */
+static bool is_by_flush_faces(const Near *near, const double point[3], double tolerance)
+{
+    Face all[CANDIDATES];
+    const int count = faces_around(near, point, NODE_REACH, all);
+    for (int i = 0; i < count; i++)
+        for (int j = i + 1; j < count; j++) {
+            const Face *a = &all[i], *b = &all[j];
+            if (a->obstacle == b->obstacle || dot3(a->normal, b->normal) > -SAME_DIRECTION) continue;
+            if (fabs(a->distance) > tolerance || fabs(a->distance + b->distance) > CLEAR_OF) continue;
+            if (is_on_face(near, a, a->foot) && is_on_face(near, b, b->foot)) return true;
+        }
+    return false;
+}
+
+/* Obstacles that stand flush end at their joint, which is inside of their union. There no surface that is within the tolerance has the space open before it. */
 static bool is_in_joint(const Near *near, const double point[3], const Depths *depths)
 {
-    if (depths->least < -depths->exact || depths->second > depths->exact) return false;
+    if (depths->least < -depths->tolerance || depths->second > depths->tolerance) return false;
     for (int i = 0; i < near->count; i++) {
         const Obstacle *o = near->obstacle[i];
         double normal[3];
         const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
         const Face nearest = face_at(near, o, point, distance, normal), *face = &nearest;
-        if (distance <= depths->exact && is_open_before(near, nearest.foot, &face, 1)) return false;
+        if (distance <= depths->tolerance && is_open_before(near, nearest.foot, &face, 1)) return false;
     }
-    return true;
+    return is_by_flush_faces(near, point, depths->tolerance);
 }
 
 bool field_holds(const Near *near, const double point[3])
@@ -350,7 +366,7 @@ static double corner_distance(const Near *near, const double point[3], const Fac
 
 static int faces_inside(const Near *near, const double point[3], const Depths *depths, double reach, Face face[FIELD_FACES])
 {
-    const double exact = depths->exact; /* what is no farther before a surface is behind it */
+    const double tolerance = depths->tolerance; /* what is no farther before a surface is behind it */
     Face all[CANDIDATES];
     const int candidates = faces_around(near, point, reach, all);
     double best = INFINITY;
@@ -364,7 +380,7 @@ static int faces_inside(const Near *near, const double point[3], const Depths *d
     for (int i = 0; i < candidates; i++)
         for (int j = i + 1; j < candidates; j++) {
             const Face *edge[3] = {&all[i], &all[j], NULL};
-            if (all[i].distance > exact || all[j].distance > exact) continue;
+            if (all[i].distance > tolerance || all[j].distance > tolerance) continue;
             if (fmax(-all[i].distance, -all[j].distance) >= best) continue;
             double distance = corner_distance(near, point, edge, 2);
             if (distance < best - ON_SURFACE) {
@@ -375,7 +391,7 @@ static int faces_inside(const Near *near, const double point[3], const Depths *d
             }
             for (int k = j + 1; k < candidates && near->dimension == 3; k++) {
                 edge[2] = &all[k];
-                if (all[k].distance > exact || -all[k].distance >= best) continue;
+                if (all[k].distance > tolerance || -all[k].distance >= best) continue;
                 distance = corner_distance(near, point, edge, 3);
                 if (distance >= best - ON_SURFACE) continue;
                 best = distance;
@@ -559,7 +575,7 @@ int field_faces(const Near *near, const double point[3], double reach, Face face
 int field_joint_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
 {
     const Depths depths = depths_at(near, point);
-    return is_in_joint(near, point, &depths) ? faces_inside(near, point, &depths, reach, face) : 0;
+    return is_in_joint(near, point, &depths) ? faces_inside(near, point, &depths, reach + depths.tolerance, face) : 0;
 }
 
 int field_faces_from(const Near *near, const double place[3], const double point[3], double reach, Face face[FIELD_FACES])

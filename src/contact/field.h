@@ -58,14 +58,14 @@ static inline double field_rounded(double value)
 /* How far [cells] the next surface is, negative inside of an obstacle: of the obstacle that the point is deepest in, which need not be the union's. */
 double field_distance(const Near *near, const double point[3]);
 
-/* Whether a point is in the union of the obstacles: in one of them, or in the joint of some that stand flush, each of which ends there. */
+/* Whether a point is in the union of the obstacles. It may be in none of them, but in a joint: exactly between some that stand flush. */
 bool field_holds(const Near *near, const double point[3]);
 
 /* The planes around a point, the nearest first; those beside it lie within `reach` [cells]. 0: none is near, or the point is deeper in obstacles than the
  * spline of a node reaches. */
 int field_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES]);
 
-/* The planes that bound the space around a joint, for a point in it that is at most `reach` [cells] deep. 0: it is in none. */
+/* For a point in a joint: the planes around the place where it came in, at most `reach` [cells] away. 0: it is in none, or deeper. */
 int field_joint_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES]);
 
 /* The planes that are seen from a place in the open, the nearest to `point` first: that may be behind them. 0: the place is in an obstacle, or sees none. */

@@ -186,9 +186,9 @@ static bool has_way_out(const Near *near, const double point[3], Face *face)
 /* By so many cells per substep an obstacle that lands on matter pushes it away: it does not fling it. */
 static const double GENTLE = 1.0;
 
-/* Moves a particle out through one face after the other, until it is before all of them, for what leads out of one may lead into the next (L. Bregman, "Finding the
- * common point of convex sets by the method of successive projection", Dokl. Akad. Nauk SSSR 162, 1965). At once out of a wall, and by at most `most` cells out of
- * anything else. False: no room to book in. */
+/* Moves a particle out through one face after the other, for what leads out of one may lead into the next: successive projection (L. Bregman, "Finding the common point
+ * of convex sets by the method of successive projection", Dokl. Akad. Nauk SSSR 162, 1965). At once out of a wall, and by at most `most` cells out of anything else.
+ * False: no room to book in. */
 static bool push_through_all(const ContactFrame *frame, Face *face, int count, double most, const Pushed *one, const Book *book)
 {
     ImpulseSum *sum[FIELD_FACES] = {NULL};
@@ -208,6 +208,17 @@ static bool push_through_all(const ContactFrame *frame, Face *face, int count, d
     return true;
 }
 
+/* [cells] Its neighbours may have pressed a particle so far into a joint before this substep. What obstacles squeeze between them as they close in is deeper: it stays. */
+static const double PRESSED = 0.5;
+
+/* How far a particle moved in this substep [cells]. */
+static double travel_of(const ContactFrame *frame, const Particles *p, uint32_t row)
+{
+    double sum = 0.0;
+    for (int a = 0; a < p->dimension; a++) sum += (double)p->velocity[a][row] * (double)p->velocity[a][row];
+    return sqrt(sum) / frame->substep->to_velocity;
+}
+
 /* A particle that ended inside obstacles is put back to the surface of their union. Its velocity into the surface is taken away. False: no room to book in. */
 static bool push_particle(const ContactFrame *frame, const Near *close, const double centre[3], double reach, const Pushed *one, const Book *book)
 {
@@ -221,13 +232,15 @@ static bool push_particle(const ContactFrame *frame, const Near *close, const do
     if (!push_inside(frame, close, one, book)) return false;
     place_of(frame, p, row, point);
     if (!field_holds(close, point)) return true;
-    field_near(&all, frame, centre, reach + 2.0 * NODE_REACH, true);
+    const double travel = travel_of(frame, p, row);
+    field_near(&all, frame, centre, reach + travel + 2.0 * NODE_REACH, true);
     const Near *near = field_meeting(&all, contacts_row_groups(frame, p, row), &some);
-    int count = field_faces(near, point, NODE_REACH, face);
-    if (stays(frame, near, p, row, point, count)) return true;
-    const int joint = field_joint_faces(near, point, reach, face); /* however far it fell in */
+    const bool inside = field_distance(near, point) < 0.0;
+    int count = inside ? field_faces(near, point, NODE_REACH, face) : 0;
+    if (inside && stays(frame, near, p, row, point, count)) return true;
+    const int joint = field_joint_faces(near, point, travel + PRESSED, face); /* no farther than it fell in */
     if (joint > 0) return push_through_all(frame, face, joint, INFINITY, one, book);
-    if (count == 0) count = has_way_out(near, point, &face[0]);
+    if (inside && count == 0) count = has_way_out(near, point, &face[0]);
     return push_through_all(frame, face, count, GENTLE, one, book);
 }
 

@@ -170,8 +170,8 @@ static bool shows_edge(const World *world, const Collider *collider, const Solid
     return false;
 }
 
-/* A grid of distances rounds edges. With cells of up to 1.5 of the world's water rests beside them, with two it moves for ever
- * (tests/field/run.py mesh_wall --settings 60x5). */
+/* A grid of distances rounds edges. With cells of up to 1.5 of the world's water rests beside them. With two it moves for ever, see
+ * tests/field/run.py mesh_wall --settings 60x5. Where the edges are, the box around the solid tells. */
 void advise_collider_too_coarse(Adviser *adviser)
 {
     static const double WIDEST = 1.5; /* cells of the world: see above */

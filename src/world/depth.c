@@ -119,7 +119,7 @@ static double counted(const Profile *profile)
 static double depth_of(const World *world, bool liquid, bool asleep_too)
 {
     static const double TRIMMED = 0.02;    /* share of the particles at each end, which may be spray; by trial */
-    static const double PER_CELL = 1024.0; /* the result is as exact: blocks that are summed in another order give the same bits */
+    static const double PER_CELL = 1024.0; /* the result is as exact: what rounding makes of another order of the blocks does not show */
     Profile profile = profile_of(world, liquid);
     double particles = 0.0, low = 0.0, high = 0.0;
     profile_find(&profile, asleep_too);

@@ -171,7 +171,7 @@ def test_obstacles_are_named_by_shape_and_index() -> None:
     ],
 )
 def test_a_wall_that_is_baked_too_coarsely(dimension: int, wide: float, foot: float, water_at: float, told: bool) -> None:
-    """A baked wall of 0.4 x 1.5 m beside water of 1 x 0.8 m on a box; the wall reaches `foot` into it. Its corners are what it might show."""
+    """A baked wall of 0.4 x 1.5 m beside water of 1 x 0.8 m on a box; the wall reaches `foot` into it."""
     cell = 0.05
     low, high = [-0.2, -foot, -2.0][:dimension], [0.2, 1.5 - foot, 2.0][:dimension]
     corners = np.array([[(low, high)[i >> a & 1][a] for a in range(dimension)] for i in range(2**dimension)])

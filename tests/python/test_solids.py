@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -405,9 +406,9 @@ def test_bodies_that_make_no_sense() -> None:
 @pytest.mark.parametrize("dimension", [2, 3])
 @pytest.mark.parametrize("floor", ["box", "baked"])
 @pytest.mark.parametrize("wall", ["box", "domain"])
-@pytest.mark.parametrize("depth", [0.3, 1.2, 2.5])
-def test_what_is_in_the_joint_of_flush_obstacles_comes_out(dimension: int, floor: str, wall: str, depth: float) -> None:
-    """A floor ends where a wall stands. A particle exactly between them, so many cells deep, is in neither; it moves down at 3 m/s."""
+@pytest.mark.parametrize("speed", [0.0, 1.0, 2.5])
+def test_what_is_in_the_joint_of_flush_obstacles_comes_out(dimension: int, floor: str, wall: str, speed: float) -> None:
+    """A floor ends where a wall stands. A particle that was pressed in exactly between them is in neither. It moves down by so many cells per step."""
     cell, half = 0.1, np.ones(dimension)
     domain = ([0, -2, -1][:dimension], [3, 3, 1][:dimension]) if wall == "domain" else None
     with pbmpm.World(dimension, cell, gravity=(0, -9.81, 0)[:dimension], domain=domain) as world:
@@ -419,7 +420,48 @@ def test_what_is_in_the_joint_of_flush_obstacles_comes_out(dimension: int, floor
             world.add_collider(pbmpm.Box(middle, half))
         if wall == "box":
             world.add_collider(pbmpm.Box([-1, 0, 0][:dimension], [1, 2, 1][:dimension]))
-        world.add_particles(world.add_material(pbmpm.Liquid()), np.array([[0, -depth * cell, 0][:dimension]]), velocities=np.array([[0, -3, 0][:dimension]]))
+        world.add_particles(world.add_material(pbmpm.Liquid()), np.array([[0, -0.3 * cell, 0][:dimension]]), velocities=np.array([[0, -speed * cell * 60, 0][:dimension]]))
         for _ in range(4):
             world.step(1 / 60)
         assert world.positions.array()[0] == pytest.approx([0] * dimension, abs=1e-4 * cell)
+
+
+RAMP = np.array([(0, 0), (2, 2 * math.tan(math.radians(20))), (0, 2 * math.tan(math.radians(20)))])
+BEAM = 0.1 * np.array([(x, y) for x in (-5, 5) for y in (0, 2)])
+
+
+@pytest.mark.parametrize(
+    ("corners", "cells", "lift", "height"),
+    [
+        pytest.param(BEAM, 10, 0.05, lambda x: 0.025, id="slit"),
+        pytest.param(BEAM, 10, 0.4, lambda x: 0.2, id="wide slit"),
+        pytest.param(RAMP, 20, 0.0, lambda x: 0.7 * x * math.tan(math.radians(20)), id="wedge"),
+    ],
+)
+def test_what_is_between_obstacles_that_nearly_meet_stays(corners: np.ndarray, cells: int, lift: float, height: Callable[[float], float]) -> None:
+    """Lone particles below a baked solid that stands `lift` cells above a floor, or hangs over it. No gravity: nothing moves them."""
+    cell = 0.1
+    solid = pbmpm.bake_hull(corners, resolution=cells)
+    for x in np.linspace(0.3, 4.3, 9):
+        with pbmpm.World(2, cell, gravity=(0, 0)) as world:
+            world.add_collider(pbmpm.Box((0, -1), (5, 1)))
+            world.add_collider(pbmpm.Baked((0, lift * cell), world.load_solid(solid)))
+            start = cell * np.array([[x, height(x)]])
+            world.add_particles(world.add_material(pbmpm.Liquid()), start)
+            world.step(1 / 60)
+            assert np.abs(world.positions.array() - start).max() < 0.02 * cell, x
+
+
+@pytest.mark.parametrize("material", [pbmpm.Sand, pbmpm.Liquid])
+def test_a_piston_that_closes_on_a_floor_lets_nothing_through(material: type[pbmpm.Sand | pbmpm.Liquid]) -> None:
+    """A beam of 10 x 2 cells sinks onto matter at half a metre per second, until it stands flush on the floor."""
+    cell = 0.1
+    with pbmpm.World(2, cell, gravity=(0, -9.81), domain=([-3, -2], [3, 6])) as world:
+        world.add_collider(pbmpm.Box((0, -1), (3, 1)))
+        beam = world.add_collider(pbmpm.Box((0, 1.3), (0.5, 0.1)), kinematic=True)
+        world.fill(pbmpm.Box((0, 0.2), (1.5, 0.2)), world.add_material(material()))
+        for i in range(170):
+            beam.move((0, max(0.1, 1.3 - 0.5 * i / 60)))
+            world.step(1 / 60)
+        at = world.positions.array()
+        assert ((np.abs(at[:, 0]) < 0.5 - cell) & (at[:, 1] > 0.1)).sum() == 0

@@ -508,8 +508,8 @@ static double held_of(const World *world, const Substep *substep, double trusted
     return asked * acceleration_reached(asked, iterations);
 }
 
-/* Few iterations hold less than the stiffness M that they ask for: a single one holds M / (1 + M). More that ask for the same M hold it all, up to six times as much
- * at once, which threw a body with 1.08 times its energy (H11, 60 Hz x 1). So bodies begin with the n for which the new iterations hold what the old ones held. */
+/* Few iterations hold less than the stiffness M that they ask for: a single one holds M / (1 + M). More iterations hold all of the same M. Up to six times as
+ * much at once threw a body with 1.08 times its energy (H11, 60 Hz x 1). So bodies begin with the n for which the new iterations hold what the old ones held. */
 double dual_continued(const World *world, const Substep *substep, int before, int now)
 {
     enum { HALVINGS = 30 }; /* of the interval: what is left of it is less than floats tell */

@@ -69,6 +69,8 @@ def _bake_heights(part: HeightsPart, cell_size: float | None) -> pbmpm.BakedSoli
 def _resolution(sides: np.ndarray, cell_size: float | None, spacing: float) -> int:
     """Grid cells along the longest side, no wider than `spacing` and the scene's own cells, as far as the grid does not grow too large. In
     coarser grids water beside an edge does not rest."""
+    if not sides.max() > 0:
+        return 4  # the baker says what is wrong
     smallest = (np.prod(np.maximum(sides, spacing)) / _MOST_VALUES) ** (1 / len(sides))
     width = max(min(spacing, cell_size or spacing), smallest)
     return int(np.clip(np.ceil(sides.max() / width - 1e-6), 4, 1024))
