@@ -288,7 +288,7 @@ static Depths depths_at(const Near *near, const double point[3])
         const double gap = solid_gap(field_solid(near, o), point) / near->cell_size, rounding = rounding_of(near, o);
         depths.second = fmin(depths.second, fmax(depths.least, gap));
         depths.least = fmin(depths.least, gap);
-        if (near->count > 1 && rounding > depths.tolerance && gap <= rounding && is_at_edge(near, o, point)) depths.tolerance = rounding;
+        if (gap <= rounding) depths.tolerance = fmax(depths.tolerance, rounding);
     }
     return depths;
 }
