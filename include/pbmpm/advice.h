@@ -40,8 +40,8 @@ typedef enum pbmpm_advice_code {
                                             with kinematic_viscosity among walls none of which holds it, or a rigid body on such a floor. Figure: 0 */
     PBMPM_ADVICE_EMITTER_OUTSIDE = 20, /**< an emitter stands wholly beyond a wall of the domain, so it emits nothing. Figure: how far beyond [cells] */
     PBMPM_ADVICE_EMITTER_REFUSED = 21, /**< came true: an emitter found its place full, so it gave less than its rate. Figure: the share that was refused so far */
-    PBMPM_ADVICE_COLLIDER_TOO_COARSE = 22, /**< a baked obstacle has too coarse a grid, and liquid or sand comes to an edge of the box around it. Figure: the width of its
-                                            grid's cells [cells of the world] */
+    PBMPM_ADVICE_COLLIDER_TOO_COARSE = 22, /**< a baked obstacle has too coarse a grid at an edge that liquid or sand comes to. Edges are those of the box around it. Figure:
+                                            the width of its grid's cells [cells of the world] */
     /* Came true: measured in the present state. */
     PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: the share that is lost at least, the measured loss less two standard errors */
     PBMPM_ADVICE_STRAIN_CLAMPED = 15,  /**< a solid is strained to a bound of its material. Figure: share of its particles */

@@ -313,8 +313,8 @@ namespace Pbmpm
         EmitterOutside = 20,
         /// <summary>came true: an emitter found its place full, so it gave less than its rate. Figure: the share that was refused so far</summary>
         EmitterRefused = 21,
-        /// <summary>a baked obstacle has too coarse a grid, and liquid or sand comes to an edge of the box around it. Figure: the width of its
-        /// grid's cells [cells of the world]</summary>
+        /// <summary>a baked obstacle has too coarse a grid at an edge that liquid or sand comes to. Edges are those of the box around it. Figure:
+        /// the width of its grid's cells [cells of the world]</summary>
         ColliderTooCoarse = 22,
         /// <summary>matter takes less room than its rest volume. Figure: the share that is lost at least, the measured loss less two standard errors</summary>
         VolumeLost = 14,
