@@ -308,7 +308,8 @@ static bool is_by_flush_faces(const Near *near, const double point[3], double to
     return false;
 }
 
-/* Obstacles that stand flush end at their joint, which is inside of their union. There no surface that is within the tolerance has the space open before it. */
+/* Obstacles that stand flush end at their joint, which is inside of their union. There no surface that is within the tolerance has the space open before it. Slits and
+ * wedges have such surfaces, too, but no faces that lie on each other: there matter stays. */
 static bool is_in_joint(const Near *near, const double point[3], const Depths *depths)
 {
     if (depths->least < -depths->tolerance || depths->second > depths->tolerance) return false;

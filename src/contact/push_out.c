@@ -208,7 +208,8 @@ static bool push_through_all(const ContactFrame *frame, Face *face, int count, d
     return true;
 }
 
-/* [cells] Its neighbours may have pressed a particle so far into a joint before this substep. What obstacles squeeze between them as they close in is deeper: it stays. */
+/* [cells] Its neighbours may have pressed a particle so far into a joint before this substep; by trial. What obstacles squeeze between them as they close in is deeper:
+ * it stays. */
 static const double PRESSED = 0.5;
 
 /* How far a particle moved in this substep [cells]. */
