@@ -97,11 +97,11 @@ static void axes_along(int dimension, const double normal[3], double along[2][3]
 }
 
 /* At an edge the grid of distances has normals between those of the faces that meet there: walls that lean so drove water at their feet at up to 0.8 m/s. So a face has to
- * go on a step of the grid beside a place on it, along each of its axes: where it does to one side alone, it is taken from there. False: it does not. */
+ * go on a step and a half of the grid beside a place on it, along each of its axes: where it does to one side alone, it is taken from there. False: it does not. */
 static bool leave_edge(const Near *near, const Obstacle *o, double place[3], double normal[3])
 {
     static const double GOES_ON = 0.9; /* cosine: at an edge of a right angle it is 0.7, on a ball whose radius is three steps 0.94 */
-    const double step = field_solid(near, o)->grid->spacing / near->cell_size;
+    const double step = 1.5 * field_solid(near, o)->grid->spacing / near->cell_size; /* past the grid's cell at the edge, from anywhere in it */
     double along[2][3];
     axes_along(near->dimension, normal, along);
     for (int k = 0; k + 1 < near->dimension; k++) {

@@ -244,6 +244,24 @@ def flush_terrain(run: Run, material: Liquid | Sand, wide: float = 1.0, shift: f
 
 
 @case(
+    water=dict(material=Liquid()),
+    water_off=dict(material=Liquid(), shift=0.3),
+    sand=dict(material=Sand()),
+    sand_off=dict(material=Sand(), shift=0.3),
+)
+def flush_floor(run: Run, material: Liquid | Sand, shift: float = 0.0) -> None:
+    """A level floor that is baked from heights and ends at the boxes that are its walls; what is put on it rests."""
+    with run.world(2, CELL) as world:
+        solid = world.load_solid(bake_heights(np.zeros(11, np.float32), 0.1, thickness=0.3, resolution=20))
+        world.add_collider(Baked((shift * CELL, 0), solid))
+        for middle in (-0.1, 1.1):
+            world.add_collider(Box((middle + shift * CELL, 0.3), (0.1, 0.8)))
+        world.add_particles(world.add_material(material), (lattice((0, 0), (1, 0.4), CELL / 2) + [shift * CELL, 0]).astype(np.float32))
+        run.steps(world, 6)
+        run.check("rms speed", rms(world), 0, 0.01, "m/s", why=REST)
+
+
+@case(
     wide_off=dict(cells=16, depth=6, kind="boxes"),
     narrow_off=dict(cells=6, depth=12, kind="boxes"),
     turned_20=dict(cells=10, depth=8, kind="boxes", angle=20.0),
