@@ -5,6 +5,7 @@
 
 #include "base/assertion.h"
 #include "base/result.h"
+#include "base/vector.h"
 #include "contact/field.h"
 #include "contact/obstacle_cache.h"
 #include "contact/reach.h"
@@ -47,40 +48,49 @@ static Contact contact_at(const ContactFrame *frame, const Obstacle *o, const do
     return contact;
 }
 
-/* Whether the way of a node, as predicted, passes the obstacle at more than the margin: then it needs no contact, which would
- * brake it although nothing is in its way. The solid is convex, so along the way the distance is a convex function, and
- * lies above its tangents at both ends. */
+/* The way of a node, as predicted, as an obstacle sees it [cells]. */
+static void way_past(const ContactFrame *frame, const Obstacle *o, const float *u, const double point[3], double way[3])
+{
+    float surface[3];
+    obstacle_motion(o, point, frame->cell_size, frame->max_displacement, surface);
+    for (int a = 0; a < 3; a++) way[a] = (double)u[a] - (double)surface[a];
+}
+
+/* Whether the way of a node passes the obstacle at more than the margin: then it needs no contact, which would brake it although nothing is in its way. If the
+ * solid is convex, the distance along the way is a convex function, and lies above its tangents at both ends. */
 static bool way_passes(const ContactFrame *frame, const Obstacle *o, const float *u, const double point[3], double distance,
                        const double normal[3])
 {
-    float surface[3];
-    double end[3] = {0}, end_normal[3], leaving = 0.0, arriving = 0.0;
+    double way[3], end[3] = {0}, end_normal[3];
+    Plane unused;
     if (distance <= WAY_MARGIN) return false;
-    obstacle_motion(o, point, frame->cell_size, frame->max_displacement, surface);
-    for (int a = 0; a < frame->grid->dimension; a++) end[a] = point[a] + ((double)u[a] - surface[a]) * frame->cell_size;
+    way_past(frame, o, u, point, way);
+    if (o->start.grid) return !plane_on_way(&o->start, frame->cell_size, point, way, WAY_MARGIN, NULL, 0, &unused);
+    for (int a = 0; a < frame->grid->dimension; a++) end[a] = point[a] + way[a] * frame->cell_size;
     const double end_distance = solid_distance(&o->start, end, end_normal) / frame->cell_size;
-    for (int a = 0; a < frame->grid->dimension; a++) {
-        leaving += ((double)u[a] - surface[a]) * normal[a];
-        arriving += ((double)u[a] - surface[a]) * end_normal[a];
-    }
+    const double leaving = dot3(way, normal), arriving = dot3(way, end_normal);
     if (end_distance <= WAY_MARGIN) return false;
     if (leaving >= 0.0 || arriving <= 0.0) return true; /* nearest at one of the ends */
     const double crossing = (end_distance - arriving - distance) / (leaving - arriving);
     return distance + crossing * leaving > WAY_MARGIN;
 }
 
-/* Contacts of a node with an obstacle of any form; written if `out` is not null. */
-static uint32_t contacts_in_hollow(const ContactFrame *frame, const Obstacle *o, const float *u, const double point[3], int node, const Plane *nearest,
-                                   Contact *out)
+/* Of a way that is longer than the field looks what it meets beyond the faces there: the far wall of a hollow of a baked solid. Written if `out` is not null. */
+static uint32_t contacts_ahead(const ContactFrame *frame, const Near *near, const float *u, const double point[3], int node, const Face *face, int faces, Contact *out)
 {
-    float surface[3];
-    double way[3];
-    Plane plane[PLANES_MAX];
-    obstacle_motion(o, point, frame->cell_size, frame->max_displacement, surface);
-    for (int a = 0; a < 3; a++) way[a] = (double)u[a] - (double)surface[a];
-    const int count = tangent_planes(&o->start, frame->cell_size, point, nearest, way, WAY_MARGIN, plane);
-    for (int i = 0; i < count && out; i++) out[i] = contact_at(frame, o, point, node, plane[i].gap, plane[i].normal);
-    return (uint32_t)count;
+    Plane known[FIELD_FACES], plane;
+    uint32_t count = 0;
+    for (int i = 0; i < faces; i++) memcpy(known[i].normal, face[i].normal, sizeof known[i].normal);
+    for (int k = 0; k < near->count; k++) {
+        const Obstacle *o = near->obstacle[k];
+        double way[3];
+        if (!o->start.grid) continue;
+        way_past(frame, o, u, point, way);
+        if (dot3(way, way) <= NODE_REACH * NODE_REACH || !plane_on_way(&o->start, frame->cell_size, point, way, WAY_MARGIN, known, faces, &plane)) continue;
+        if (out) out[count] = contact_at(frame, o, point, node, plane.gap, plane.normal);
+        count++;
+    }
+    return count;
 }
 
 /* How deep [cells] in an obstacle a node is more than on its surface. */
@@ -114,14 +124,13 @@ static uint32_t contacts_deep_inside(const ContactFrame *frame, const Around *ar
     Face face;
     uint32_t count = 0;
     if (!frame->stays) {
-        if (!field_surface(&around->near, point, &face) || face.obstacle->start.grid) return 0;
+        if (!field_surface(&around->near, point, &face)) return 0;
         if (out) out[0] = contact_at(frame, face.obstacle, point, node, face.distance, face.normal);
         return 1;
     }
     for (int k = 0; k < around->near.count; k++) {
         const Obstacle *o = around->near.obstacle[k];
         double normal[3];
-        if (o->start.grid) continue;
         const double distance = solid_distance(&o->start, point, normal) / frame->cell_size;
         if (distance > 0.0) continue;
         if (out) out[count] = contact_at(frame, o, point, node, distance, normal);
@@ -139,19 +148,19 @@ static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *aro
     uint32_t count = 0;
     bool thin, both;
     int faces = wet_faces(&site, around->most, face, &thin, &both);
-    if (faces == 0) return contacts_deep_inside(frame, around, point, node, out);
+    if (faces == 0) count = contacts_deep_inside(frame, around, point, node, out);
     if (both)
         faces = 2;
-    else if (face[0].distance < -INSIDE) faces = field_outer_faces(&around->near, point, NODE_REACH, face, faces);
+    else if (faces > 0 && face[0].distance < -INSIDE) faces = field_outer_faces(&around->near, point, NODE_REACH, face, faces);
     for (int i = 0; i < faces; i++) {
         const Obstacle *o = face[i].obstacle;
         int k = 0;
         while (around->near.obstacle[k] != o) k++;
-        if (o->start.grid || face[i].distance > around->reach[k] || way_passes(frame, o, u, point, face[i].distance, face[i].normal)) continue;
+        if (face[i].distance > around->reach[k] || way_passes(frame, o, u, point, face[i].distance, face[i].normal)) continue;
         if (out) out[count] = contact_at(frame, o, point, node, face[i].distance, face[i].normal);
         count++;
     }
-    return count;
+    return count + contacts_ahead(frame, &around->near, u, point, node, face, faces, out ? out + count : NULL);
 }
 
 /* Whether a node is led by walls: it stays where it was taken, or follows; see joint.h. A node before them that a solid reaches has contacts as elsewhere. */
@@ -224,7 +233,6 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *all, 
         const float *u = node + i * K_NODE_WIDTH;
         const uint32_t first = count;
         double point[3];
-        Plane nearest;
         if (u[3] == 0.0f || walls_hold(frame->walls, (uint32_t)(block * grid->block_cells + i))) continue; /* no mass, nobody listens */
         const size_t at = (size_t)block * (size_t)grid->block_cells + (size_t)i;
         if (is_led(frame, (uint32_t)at)) {
@@ -236,15 +244,8 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *all, 
         }
         const Around *around = around_node(frame, all, at, &some);
         if ((double)frame->gap[at] > around->most) continue;
-        const Near *near = &around->near;
         contacts_node_position(frame, block, i, point);
         count += contacts_with_faces(frame, around, u, point, block, i, out ? out + count : NULL);
-        for (int k = 0; k < near->count; k++) {
-            const Obstacle *o = near->obstacle[k];
-            if (!o->start.grid) continue;
-            nearest.gap = solid_distance(&o->start, point, nearest.normal) / frame->cell_size;
-            if (nearest.gap <= around->reach[k]) count += contacts_in_hollow(frame, o, u, point, i, &nearest, out ? out + count : NULL);
-        }
         const bool walled = walls_list(frame->walls, (uint32_t)(block * grid->block_cells + i));
         const bool rubs = reach_solid(frame, (uint32_t)(block * grid->block_cells + i));
         for (uint32_t k = first; k < count && out; k++) {

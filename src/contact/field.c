@@ -407,14 +407,50 @@ static int faces_inside(const Near *near, const double point[3], const Depths *d
 
 /* ---- Outside: what is seen ---- */
 
-/* Whether the nearest place of a box, seen from outside, is one that matter may meet: on a face that is open, or on an edge both of whose faces are. The edge of
- * a tile beside another one is none. */
+/* How far beside an edge [cells] an obstacle is asked whether the space is open there: past the rounding of its own edges. */
+static double beside_edge(const Near *near, const Obstacle *o) { return BEFORE + rounding_of(near, o); }
+
+/* Whether other obstacles leave the space open beside an edge, before each of the two faces that meet there. */
+static bool is_edge_open(const Near *near, const double edge[3], const Face *const face[2])
+{
+    for (int i = 0; i < near->count; i++) {
+        const Obstacle *o = near->obstacle[i];
+        const double length = beside_edge(near, o);
+        if (o == face[0]->obstacle) continue;
+        for (int before = 0; before < 2; before++) {
+            double beside[3] = {edge[0], edge[1], edge[2]};
+            for (int k = 0; k < 2; k++) ahead(near, beside, k == before ? length : -length, face[k]->normal, beside);
+            if (solid_gap(field_solid(near, o), beside) <= ON_SURFACE * near->cell_size) return false;
+        }
+    }
+    return true;
+}
+
+/* Whether matter near a baked solid may meet all its edges there. */
+static bool are_baked_edges_open(const Near *near, const Obstacle *o, const double point[3])
+{
+    Face all[CANDIDATES];
+    const int count = baked_faces(near, o, point, NODE_REACH, all, CANDIDATES);
+    for (int i = 0; i < count; i++)
+        for (int j = i + 1; j < count; j++) {
+            const Face *edge[2] = {&all[i], &all[j]};
+            double way[3], place[3];
+            if (!meet(edge, 2, way)) continue;
+            ahead(near, point, 1.0, way, place);
+            if (is_on_face(near, &all[i], place) && !is_edge_open(near, place, edge)) return false;
+        }
+    return true;
+}
+
+/* Whether the nearest place of an obstacle, seen from outside, is one that matter may meet: on a face that is open, or on an edge both of whose faces are. The edge of
+ * a tile beside another one is none. A grid rounds its edges: the nearest place on one has a normal between those of the faces. */
 static bool is_exposed(const Near *near, const Face *face, const double point[3])
 {
     const Solid *s = field_solid(near, face->obstacle);
     double before[3], local[3];
     int outside = 0;
     if ((face->distance > BEFORE || s->grid) && !is_open_before(near, face->foot, &face, 1)) return false;
+    if (s->grid) return !is_at_edge(near, face->obstacle, face->foot) || are_baked_edges_open(near, face->obstacle, point);
     if (s->kind != PBMPM_BOX) return true;
     along_axes(s, point, local);
     for (int a = 0; a < s->dimension; a++) outside += fabs(local[a]) > s->half_extents[a] + ON_SURFACE * near->cell_size;
@@ -455,11 +491,10 @@ static int add_face(Face face[FIELD_FACES], int count, const Face *seen, int mos
  * no surface: then it is left out. */
 static int add_baked(const Near *near, const Face *first, const double point[3], double reach, Face face[FIELD_FACES], int count, int most)
 {
-    static const double STAY[3] = {0};
     const Solid *s = field_solid(near, first->obstacle);
     Plane plane[PLANES_MAX];
     const Plane nearest = {.normal = {first->normal[0], first->normal[1], first->normal[2]}, .gap = first->distance};
-    const int planes = tangent_planes(s, near->cell_size, point, &nearest, STAY, reach, plane);
+    const int planes = tangent_planes(s, near->cell_size, point, &nearest, reach, plane);
     const bool between = planes > 2 && fabs(solid_gap(s, first->foot)) > rounding_of(near, first->obstacle) * near->cell_size;
     if (!between) count = add_face(face, count, first, most);
     for (int i = 1; i < planes; i++) {

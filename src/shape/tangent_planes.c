@@ -37,19 +37,21 @@ static Sample look(const Lookout *l, const double offset[3])
     return sample;
 }
 
-static bool is_known(const Lookout *l, const double normal[3])
+static bool is_known(const Plane *known, int count, const double normal[3])
 {
-    for (int i = 0; i < l->count; i++)
-        if (dot3(l->plane[i].normal, normal) > SAME_DIRECTION) return true;
+    for (int i = 0; i < count; i++)
+        if (dot3(known[i].normal, normal) > SAME_DIRECTION) return true;
     return false;
+}
+
+static Plane plane_of(const Sample *sample)
+{
+    return (Plane){.normal = {sample->normal[0], sample->normal[1], sample->normal[2]}, .gap = fmax(sample->gap, 0.0)};
 }
 
 static void add_plane(Lookout *l, const Sample *sample)
 {
-    if (l->count == PLANES_MAX) return;
-    Plane *plane = &l->plane[l->count++];
-    memcpy(plane->normal, sample->normal, sizeof plane->normal);
-    plane->gap = fmax(sample->gap, 0.0);
+    if (l->count < PLANES_MAX) l->plane[l->count++] = plane_of(sample);
 }
 
 /* Whether going through a plane along the first one leads into the solid, or deeper into it. So it does in a hollow; round a bulge or an
@@ -77,35 +79,35 @@ static void look_around(Lookout *l, const double normal[3])
         double offset[3] = {0};
         offset[i / 2] = i % 2 ? 1.0 : -1.0;
         const Sample sample = look(l, offset);
-        if (sample.gap <= l->margin && !is_known(l, sample.normal) && cuts(l, &sample)) add_plane(l, &sample);
+        if (sample.gap <= l->margin && !is_known(l->plane, l->count, sample.normal) && cuts(l, &sample)) add_plane(l, &sample);
     }
 }
 
-/* Follows the way to where it comes closest to a surface that is not known yet, or enters the solid: from distance to distance, less the
- * margin, at least half a cell. */
-static void look_ahead(Lookout *l, const double way[3])
-{
-    const double length = sqrt(dot3(way, way));
-    Sample best = {.distance = INFINITY};
-    double gone = fmax(l->distance - l->margin, 0.5);
-    for (bool last = false; !last && l->distance > 0.0; ) {
-        double offset[3], point[3];
-        last = gone >= length;
-        for (int a = 0; a < 3; a++) offset[a] = length > 0.0 ? way[a] * fmin(gone / length, 1.0) : 0.0;
-        const Sample sample = look(l, offset);
-        if (sample.distance < 0.0) break;
-        if (sample.distance < best.distance && !is_known(l, sample.normal)) best = sample;
-        point_at(l, offset, point);
-        gone += fmax(solid_least(l->solid, point) / l->cell_size - l->margin, 0.5);
-    }
-    if (best.distance <= l->margin && dot3(best.normal, way) < 0.0) add_plane(l, &best);
-}
-
-int tangent_planes(const Solid *solid, double cell_size, const double point[3], const Plane *nearest, const double way[3], double margin,
-                   Plane planes[PLANES_MAX])
+int tangent_planes(const Solid *solid, double cell_size, const double point[3], const Plane *nearest, double margin, Plane planes[PLANES_MAX])
 {
     Lookout l = {.solid = solid, .cell_size = cell_size, .point = point, .distance = nearest->gap, .margin = margin, .plane = planes};
     if (nearest->gap <= margin) look_around(&l, nearest->normal);
-    look_ahead(&l, way);
     return l.count;
+}
+
+/* From distance to distance, less the margin, at least half a cell. */
+bool plane_on_way(const Solid *solid, double cell_size, const double point[3], const double way[3], double margin, const Plane *known, int count, Plane *plane)
+{
+    const Lookout l = {.solid = solid, .cell_size = cell_size, .point = point, .distance = solid_gap(solid, point) / cell_size};
+    const double length = sqrt(dot3(way, way));
+    Sample best = {.distance = INFINITY};
+    double gone = fmax(l.distance - margin, 0.5);
+    for (bool last = false; !last && l.distance > 0.0;) {
+        double offset[3], there[3];
+        last = gone >= length;
+        for (int a = 0; a < 3; a++) offset[a] = length > 0.0 ? way[a] * fmin(gone / length, 1.0) : 0.0;
+        const Sample sample = look(&l, offset);
+        if (sample.distance < 0.0) break;
+        if (sample.distance < best.distance && !is_known(known, count, sample.normal)) best = sample;
+        point_at(&l, offset, there);
+        gone += fmax(solid_least(solid, there) / cell_size - margin, 0.5);
+    }
+    if (best.distance > margin || dot3(best.normal, way) >= 0.0) return false;
+    *plane = plane_of(&best);
+    return true;
 }

@@ -2,6 +2,8 @@
 #ifndef PBMPM_SRC_SHAPE_TANGENT_PLANES_H
 #define PBMPM_SRC_SHAPE_TANGENT_PLANES_H
 
+#include <stdbool.h>
+
 #include "shape/shapes.h"
 
 enum { PLANES_MAX = 4 };
@@ -12,9 +14,12 @@ typedef struct Plane {
     double gap; /* 0 inside */
 } Plane;
 
-/* The planes for a node at `point` [m] that wants to go `way` [cells] and may go `margin` cells aside; returns their number, 0 if it
- * does not come within the margin. `nearest`: the solid's normal and, as the gap, its distance at the point [cells]. */
-int tangent_planes(const Solid *solid, double cell_size, const double point[3], const Plane *nearest, const double way[3], double margin,
-                   Plane planes[PLANES_MAX]);
+/* The planes around a point [m] that may go `margin` cells aside; returns their number, 0 if it does not come within the margin. `nearest`: the
+ * solid's normal and, as the gap, its distance at the point [cells]. */
+int tangent_planes(const Solid *solid, double cell_size, const double point[3], const Plane *nearest, double margin, Plane planes[PLANES_MAX]);
+
+/* Follows the way [cells] of a point outside to where it comes closest to a surface that none of `count` known planes stands for, or enters the solid. False: it
+ * stays farther off than the margin, or leaves. */
+bool plane_on_way(const Solid *solid, double cell_size, const double point[3], const double way[3], double margin, const Plane *known, int count, Plane *plane);
 
 #endif

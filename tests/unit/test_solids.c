@@ -604,7 +604,7 @@ static void check_ways(int d, double most)
     solid.grid = &baked.grid;
     for (int i = 0; i < WAYS; i++) {
         double point[3] = {0}, way[3] = {0}, deepest = 0.0, size2 = 0.0;
-        Plane nearest, plane[PLANES_MAX];
+        Plane nearest, ahead, plane[PLANES_MAX + 1];
         for (int a = 0; a < d; a++) {
             point[a] = random_in(&random, -2.0, 2.0);
             way[a] = random_in(&random, -most, most);
@@ -618,7 +618,8 @@ static void check_ways(int d, double most)
             for (int a = 0; a < d; a++) there[a] = point[a] + way[a] * cell * k / PLACES;
             deepest = fmin(deepest, solid_distance(&solid, there, unused) / cell);
         }
-        const int planes = tangent_planes(&solid, cell, point, &nearest, way, margin, plane);
+        int planes = tangent_planes(&solid, cell, point, &nearest, margin, plane);
+        if (plane_on_way(&solid, cell, point, way, margin, plane, planes, &ahead)) plane[planes++] = ahead;
         bool forbidden = false;
         for (int k = 0; k < planes; k++) {
             const double along = plane[k].normal[0] * way[0] + plane[k].normal[1] * way[1] + plane[k].normal[2] * way[2];
