@@ -41,8 +41,10 @@ static const double CALM_SPEED = 0.01; /* [m/s] a fifth of a cell of 5 cm per se
  * pools of 6 to 48 cells of 1.25 to 10 cm behind upright walls off the grid have 0.0009 to 0.0025 of f, at 60 and 120 Hz, in 2D and 3D, with 2 to 20 iterations. Where gravity is
  * oblique to the grid, by 10, 20 and 45 degrees, it is 0.0026 to 0.0098 of f (tests/field/run.py still_pool deep_pool --settings 60x5). Around steps, shelves, ridges and balls it is 0.0006
  * to 0.0014 in ten of sixteen pools and up to 0.018, which nobody foretells; advise_pool_moves() tells it.
+ * On floors that lean or curve it is 0.006 to 0.033 of f in eight of ten pools, 0.016 in the median (145 pools of 4 to 16 cells in valleys of 5 to 30 degrees and on waves of terrain, six
+ * seconds after they were filled; tests/field/run.py lake). With two substeps it is a tenth.
  * Above SHALLOW the pressures of five iterations do not reach the bottom: the speed is about DEEP f^2, with 3 iterations four times as much, with 10 and 20 hardly more. */
-static const double RESTS = 0.0013, OBLIQUE = 0.0045, SHALLOW = 3.0, DEEP = 0.0015, DEEP_ITERATIONS = 5.0;
+static const double RESTS = 0.0013, OBLIQUE = 0.0045, LEANING = 0.016, SHALLOW = 3.0, DEEP = 0.0015, DEEP_ITERATIONS = 5.0;
 
 /* Liquids that store energy have no eddy damping: that share of f^2 [cells per substep]; by trial. */
 static const double STORES = 0.012;
@@ -55,6 +57,14 @@ static bool pulls_obliquely(const World *world)
     return axes > 1;
 }
 
+/* The share of f at which a pool that is not too deep goes on. */
+static double rests_at(const Adviser *adviser, uint32_t slot)
+{
+    static const double MUCH = 0.25; /* of the floor: in a pool of four cells one column is beside a wall */
+    if (adviser->survey.heap[slot].leans > MUCH) return LEANING;
+    return pulls_obliquely(adviser->world) ? OBLIQUE : RESTS;
+}
+
 /* The rms speed [m/s] that is foreseen where f falls by the square of `factor`, see above. */
 static double stirring(const Adviser *adviser, uint32_t slot, double factor)
 {
@@ -62,7 +72,7 @@ static double stirring(const Adviser *adviser, uint32_t slot, double factor)
     const double f = gravity_fall(world, &adviser->substep) * adviser->survey.heap[slot].depth / (factor * factor);
     const double cell_speed = factor * (double)world->def.cell_size / adviser->substep.dt, few = fmax(1.0, DEEP_ITERATIONS / world->settings.iterations);
     if (world->materials.def[slot].bulk_modulus > 0.0f) return STORES * f * f * cell_speed;
-    const double rests = (pulls_obliquely(world) ? OBLIQUE : RESTS) * f;
+    const double rests = rests_at(adviser, slot) * f;
     return (f > SHALLOW ? fmax(rests, DEEP * few * few * f * f) : rests) * cell_speed;
 }
 
@@ -79,9 +89,10 @@ void advise_pool_stirs(Adviser *adviser)
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && !is_drained(world); slot++) {
         const double speed = stirring(adviser, slot, 1.0);
+        const bool leaning = rests_at(adviser, slot) == LEANING;
         if (!adviser_flows(&world->materials.def[slot]) || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL || speed <= CALM_SPEED) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)speed, .bound = (float)CALM_SPEED,
-                               .text = "a pool this deep goes on circling slowly: steps are too long for it"};
+                               .text = leaning ? "a pool this deep over a floor that leans goes on circling: steps are too long for it" : "a pool this deep goes on circling slowly: steps are too long for it"};
         double factor = 1.0;
         const double substeps = world->settings.substeps;
         while (stirring(adviser, slot, factor) > CALM_SPEED && factor * substeps <= PBMPM_MAX_SUBSTEPS) factor += 1.0 / substeps;

@@ -224,6 +224,7 @@ static void look_below(const World *world, Cells *cells, int down, bool floats, 
 /* Of each group. */
 typedef struct Sizes {
     double runs[3][PBMPM_MAX_MATERIALS + 1], narrow[PBMPM_MAX_MATERIALS + 1], thickness[PBMPM_MAX_MATERIALS + 1], uneven;
+    double leans;
 } Sizes;
 
 /* A body is as thick as its thickest part, but for noise: what counts is a mean that leans that far to it. */
@@ -253,6 +254,13 @@ static void measure_sizes(const World *world, Cells *cells, int down, bool float
     if (down >= 0 && any_liquid(world)) sizes->uneven = survey_level(world, cells, down, pull);
 }
 
+static double leaning_of(const World *world, const Cells *cells, int down)
+{
+    double pull[3];
+    gravity_direction(world, pull);
+    return survey_leaning(world, cells, down, pull);
+}
+
 static void look_at_cells(const World *world, Cells *cells, Survey *survey)
 {
     double filling[PBMPM_MAX_MATERIALS + 1] = {0}, error[PBMPM_MAX_MATERIALS + 1], overlapping[PBMPM_MAX_MATERIALS + 1] = {0};
@@ -264,6 +272,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     if (world->step_count == 0) survey_overlaps(cells, overlapping);
     look_at_balls(world, cells, survey);
     if (floats) survey->meets = fastest_meeting(world, cells);
+    if (down >= 0 && any_liquid(world)) sizes.leans = leaning_of(world, cells, down);
     survey_find_bodies(cells);
     if (down >= 0) look_below(world, cells, down, floats, survey);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
@@ -276,6 +285,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
             if (a != down) heap->width = fmin(heap->width, sizes.runs[a][group]);
         heap->thickness = sizes.thickness[group];
         heap->uneven = group == 0 ? sizes.uneven : 0.0;
+        heap->leans = group == 0 ? sizes.leans : 0.0;
         heap->narrow = group > 0 ? sizes.narrow[group] : 0.0;
         heap->filling = filling[group];
         heap->filling_error = error[group];

@@ -1,4 +1,4 @@
-/* Where matter falls, hangs, slides, or carries a film of liquid. */
+/* Where matter falls, hangs, slides, lies on a slope, or carries a film of liquid. */
 #include "services/survey_parts.h"
 
 #include <math.h>
@@ -267,4 +267,34 @@ void survey_slopes(const World *world, const Cells *cells, int axis, uint32_t sl
     }
     if (looked > 0.0) heap->steep = steep / looked;
     for (int a = 0; a < world->def.dimension; a++) heap->falls_both_ways = heap->falls_both_ways || (sides >> domain_place(a, false) & 3) == 3;
+}
+
+/* Whether an obstacle below a cell is nearer or farther a cell beside. Less than LEVEL is none, and more than STEP is an edge. */
+static bool leans_below(const World *world, const Share *bottom, const double down[3], int side, bool *borne)
+{
+    static const double REACH = 4.0, LEVEL = 0.05, STEP = 2.0; /* [cells] */
+    Share beside = *bottom;
+    beside.cell[side]++;
+    const double here = survey_cells_to_obstacle(world, bottom, down, REACH), there = survey_cells_to_obstacle(world, &beside, down, REACH);
+    const double rise = here - there - down[side]; /* of a level floor the cell beside is nearer by how much lower it is */
+    *borne = *borne || here < REACH;
+    return here < REACH && there < REACH && fabs(rise) > LEVEL && fabs(rise) < STEP;
+}
+
+double survey_leaning(const World *world, const Cells *cells, int axis, const double down[3])
+{
+    const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
+    double looked = 0.0, leaning = 0.0;
+    uint32_t ends = 0, number = 0;
+    for (uint32_t i = 0; i < cells->count; i++) ends += cells->share[i].group == 0 && survey_group_ends(cells, &cells->share[i], axis, way);
+    const uint32_t stride = 1 + ends / LOOKED_AT;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        const Share *share = &cells->share[i];
+        bool borne = false, leans = false;
+        if (share->group != 0 || !survey_group_ends(cells, share, axis, way) || number++ % stride != 0) continue;
+        for (int a = 0; a < world->def.dimension; a++) leans = leans || (a != axis && leans_below(world, share, down, a, &borne));
+        looked += borne;
+        leaning += leans;
+    }
+    return looked > 0.0 ? leaning / looked : 0.0;
 }

@@ -248,16 +248,52 @@ def flush_terrain(run: Run, material: Liquid | Sand, wide: float = 1.0, shift: f
     water_off=dict(material=Liquid(), shift=0.3),
     sand=dict(material=Sand()),
     sand_off=dict(material=Sand(), shift=0.3),
+    water_coarse=dict(material=Liquid(), shift=0.3, resolution=13),
+    sand_coarse=dict(material=Sand(), shift=0.3, resolution=13),
 )
-def flush_floor(run: Run, material: Liquid | Sand, shift: float = 0.0) -> None:
+def flush_floor(run: Run, material: Liquid | Sand, shift: float = 0.0, resolution: int = 20) -> None:
     """A level floor that is baked from heights and ends at the boxes that are its walls; what is put on it rests."""
     with run.world(2, CELL) as world:
-        solid = world.load_solid(bake_heights(np.zeros(11, np.float32), 0.1, thickness=0.3, resolution=20))
+        solid = world.load_solid(bake_heights(np.zeros(11, np.float32), 0.1, thickness=0.3, resolution=resolution))
         world.add_collider(Baked((shift * CELL, 0), solid))
         for middle in (-0.1, 1.1):
             world.add_collider(Box((middle + shift * CELL, 0.3), (0.1, 0.8)))
         world.add_particles(world.add_material(material), (lattice((0, 0), (1, 0.4), CELL / 2) + [shift * CELL, 0]).astype(np.float32))
         run.steps(world, 6)
+        run.check("rms speed", rms(world), 0, 0.01, "m/s", why=REST)
+        run.check("least volume ratio", float(world.volume_ratios.array().min()), 0.8, 2, why="no particle is crushed")
+
+
+GROUND = {"waves": lambda x: 0.15 * np.sin(math.pi * x), "valley": lambda x: math.tan(math.radians(10)) * np.abs(x - 1) - 0.15}
+
+
+@case(
+    waves=dict(ground="waves"),
+    waves_off=dict(ground="waves", shift=0.4),
+    tiles_off=dict(ground="waves", shift=0.3, tiles=2),
+    valley_10_off=dict(ground="valley", shift=0.5),
+    valley_10_two_substeps=dict(ground="valley", shift=0.5, substeps=2),
+)
+def lake(run: Run, ground: str, shift: float = 0.0, tiles: int = 1, substeps: int = 1) -> None:
+    """A lake on terrain that is baked, of tiles beside each other, and ends at boxes."""
+    step, count = 0.1, 20 // tiles
+    x = np.arange(21) * step
+    heights = GROUND[ground](x)
+    with run.world(2, CELL) as world:
+        world.substeps = substeps
+        for tile in range(tiles):
+            part = heights[tile * count : (tile + 1) * count + 1].astype(np.float32)
+            solid = world.load_solid(bake_heights(part, step, thickness=0.3, resolution=round(count * step / CELL)))
+            world.add_collider(Baked((tile * count * step + shift * CELL, 0), solid))
+        for middle in (-0.2, 2.2):
+            world.add_collider(Box((middle + shift * CELL, 0.3), (0.2, 0.8)))
+        p = lattice((0, -0.3), (2, 0.45), CELL / 2)
+        p = p[p[:, 1] > np.interp(p[:, 0], x, heights) + CELL / 4]
+        world.add_particles(world.add_material(Liquid()), (p + [shift * CELL, 0]).astype(np.float32))
+        run.steps(world, 6)
+        q = world.positions.array() - [shift * CELL, 0]
+        below = np.interp(q[:, 0], x, heights) - q[:, 1] > 0.75 * CELL
+        run.check("particles below the ground", int(below.sum()), 0, 0, why="the ground is solid")
         run.check("rms speed", rms(world), 0, 0.01, "m/s", why=REST)
 
 
