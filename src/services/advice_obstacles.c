@@ -107,23 +107,24 @@ static void room_take(Room *room, const double at[3])
     }
 }
 
-static bool flows(const World *world, uint32_t slot) { return world->materials.def[slot].kind == PBMPM_LIQUID || world->materials.def[slot].kind == PBMPM_SAND; }
+/* What runs through gaps: liquid and sand. */
+static bool pours(const World *world, uint32_t slot) { return world->materials.def[slot].kind == PBMPM_LIQUID || world->materials.def[slot].kind == PBMPM_SAND; }
 
-/* Where what flows is, and where it comes from. */
-static Room room_of_flows(const World *world)
+/* Where what pours is, and where it comes from. */
+static Room room_of_poured(const World *world)
 {
     const Particles *p = &world->particles;
     Room room = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (uint32_t row = 0; row < p->count; row++) {
         double at[3] = {0};
-        if (!flows(world, p->material[row])) continue;
+        if (!pours(world, p->material[row])) continue;
         for (int a = 0; a < p->dimension; a++) at[a] = particles_coordinate(p, row, a) * (double)world->def.cell_size;
         room_take(&room, at);
     }
     for (uint32_t e = 0; e < world->emitters.used; e++) {
         const Emitter *emitter = &world->emitters.slot[e];
         const float *from = emitter->shape.position;
-        if (emitter->generation == 0 || !flows(world, emitter->def.material.index)) continue;
+        if (emitter->generation == 0 || !pours(world, emitter->def.material.index)) continue;
         room_take(&room, (const double[3]){(double)from[0], (double)from[1], world->def.dimension == 3 ? (double)from[2] : 0.0});
     }
     return room;
@@ -175,6 +176,7 @@ static bool shows_edge(const World *world, const Collider *collider, const Solid
 void advise_collider_too_coarse(Adviser *adviser)
 {
     static const double WIDEST = 1.5; /* cells of the world: see above */
+    static const double NEARLY = 1.01; /* who asked for that need not hit it exactly: the longest side of a grid is a whole number of its cells */
     const World *world = adviser->world;
     const double cell = (double)world->def.cell_size;
     Room room;
@@ -184,8 +186,8 @@ void advise_collider_too_coarse(Adviser *adviser)
         if (!world_feels(world, collider) || collider->shape.kind != PBMPM_BAKED) continue;
         const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
         const double cells = solid.grid->spacing / cell;
-        if (cells <= WIDEST * 1.01) continue; /* a hundredth: who asked for 1.5 need not hit it exactly */
-        if (!found) room = room_of_flows(world);
+        if (cells <= WIDEST * NEARLY) continue;
+        if (!found) room = room_of_poured(world);
         found = true;
         if (!shows_edge(world, collider, &solid, &room)) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_COARSE, .collider = {c, collider->generation}, .figure = (float)cells, .bound = (float)WIDEST,

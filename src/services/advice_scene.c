@@ -49,17 +49,17 @@ static double share_that_falls(const World *world, uint32_t samples, bool with_e
 static void advise_sticks_out(Adviser *adviser)
 {
     enum { SAMPLES = 1024 }; /* once in a scene */
-    static const double FEW = 0.005, MANY = 0.5; /* fewer than a row of particles at a wall; more are meant to fall */
+    static const double ROW = 0.005, MANY = 0.5; /* fewer than a row of particles at a wall; more are meant to fall */
     const double share = adviser->world->step_count == 0 ? share_that_falls(adviser->world, SAMPLES, false) : 0.0;
-    if (share <= FEW || share >= MANY) return;
-    adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)share, .bound = (float)FEW,
+    if (share <= ROW || share >= MANY) return;
+    adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)share, .bound = (float)ROW,
                                          .text = "this share of matter was put where nothing is below it, behind a wall perhaps: it falls until the kill bounds take it out"});
 }
 
 void advise_falls_forever(Adviser *adviser)
 {
     enum { SAMPLES = 64 }; /* so that advice costs the same for any number of particles */
-    static const double FEW = 0.05; /* share of the samples: three of 64, which may be spray */
+    static const double SPRAY = 0.05; /* share of the samples: three of 64, which may be spray */
     const World *world = adviser->world;
     if (gravity_strength(world) == 0.0 || adviser_wall_below(world)) return;
     if (world->sinks.bounds.enabled) {
@@ -67,8 +67,8 @@ void advise_falls_forever(Adviser *adviser)
         return;
     }
     const double share = share_that_falls(world, SAMPLES, true);
-    if (share <= FEW) return;
-    pbmpm_advice advice = {.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)share, .bound = (float)FEW,
+    if (share <= SPRAY) return;
+    pbmpm_advice advice = {.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)share, .bound = (float)SPRAY,
                            .text = "this share of matter and emitters has nothing to fall on, and no kill bounds take it out: it falls for ever at full cost"};
     adviser_by_value(PBMPM_CHANGE_KILL_BOUNDS, 0.0, 0.0, &advice);
     adviser_give(adviser, advice);
@@ -252,12 +252,12 @@ void advise_volume_lost(Adviser *adviser)
 
 void advise_strain_clamped(Adviser *adviser)
 {
-    static const double FEW = 0.005; /* share of particles: single ones are strained to a bound in any splash */
+    static const double SPLASHED = 0.005; /* share of particles: single ones are strained to a bound in any splash */
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double share = adviser->survey.heap[slot].clamped;
-        if (share <= FEW) continue;
-        pbmpm_advice advice = {.code = PBMPM_ADVICE_STRAIN_CLAMPED, .material = adviser_id_of(world, slot), .figure = (float)share, .bound = (float)FEW, .came_true = 1,
+        if (share <= SPLASHED) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_STRAIN_CLAMPED, .material = adviser_id_of(world, slot), .figure = (float)share, .bound = (float)SPLASHED, .came_true = 1,
                                .text = "particles are strained to a bound of their material: they are crushed or torn"};
         adviser_by_substeps(adviser, 2.0, &advice);
         adviser_give(adviser, advice);
@@ -301,12 +301,12 @@ void advise_not_solved(Adviser *adviser)
 /* Before the first step: later nobody can tell it from what was crushed. */
 void advise_overlaps(Adviser *adviser)
 {
-    static const double FEW = 0.01; /* share of the matter: fills that are flush overlap by the jitter of their places */
+    static const double JITTER = 0.01; /* share of the matter: fills that are flush overlap by the jitter of their places */
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && world->step_count == 0; slot++) {
         const double share = adviser->survey.heap[slot].overlapping;
-        if (share <= FEW) continue;
-        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_OVERLAPS, .material = adviser_id_of(world, slot), .figure = (float)share, .bound = (float)FEW,
+        if (share <= JITTER) continue;
+        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_OVERLAPS, .material = adviser_id_of(world, slot), .figure = (float)share, .bound = (float)JITTER,
                                              .text = "matter was put where there is other matter: it is crushed, and bursts or loses volume"});
     }
 }
