@@ -65,7 +65,7 @@ static bool way_passes(const ContactFrame *frame, const Obstacle *o, const float
     Plane unused;
     if (distance <= WAY_MARGIN) return false;
     way_past(frame, o, u, point, way);
-    if (o->start.grid) return !plane_on_way(&o->start, frame->cell_size, point, way, WAY_MARGIN, NULL, 0, &unused);
+    if (o->start.grid) return !plane_on_way(&o->start, frame->cell_size, &(Way){.point = point, .way = way}, WAY_MARGIN, &unused);
     for (int a = 0; a < frame->grid->dimension; a++) end[a] = point[a] + way[a] * frame->cell_size;
     const double end_distance = solid_distance(&o->start, end, end_normal) / frame->cell_size;
     const double leaving = dot3(way, normal), arriving = dot3(way, end_normal);
@@ -75,22 +75,17 @@ static bool way_passes(const ContactFrame *frame, const Obstacle *o, const float
     return distance + crossing * leaving > WAY_MARGIN;
 }
 
-/* Of a way that is longer than the field looks what it meets beyond the faces there: the far wall of a hollow of a baked solid. Written if `out` is not null. */
-static uint32_t contacts_ahead(const ContactFrame *frame, const Near *near, const float *u, const double point[3], int node, const Face *face, int faces, Contact *out)
+/* The contact that a baked obstacle gives a node on a way that is longer than the field looks, beyond the planes there: with the far wall of a hollow. */
+static uint32_t contact_ahead(const ContactFrame *frame, const Obstacle *o, const float *u, int node, const Way *known, Contact *out)
 {
-    Plane known[FIELD_FACES], plane;
-    uint32_t count = 0;
-    for (int i = 0; i < faces; i++) memcpy(known[i].normal, face[i].normal, sizeof known[i].normal);
-    for (int k = 0; k < near->count; k++) {
-        const Obstacle *o = near->obstacle[k];
-        double way[3];
-        if (!o->start.grid) continue;
-        way_past(frame, o, u, point, way);
-        if (dot3(way, way) <= NODE_REACH * NODE_REACH || !plane_on_way(&o->start, frame->cell_size, point, way, WAY_MARGIN, known, faces, &plane)) continue;
-        if (out) out[count] = contact_at(frame, o, point, node, plane.gap, plane.normal);
-        count++;
-    }
-    return count;
+    Way way = *known;
+    Plane plane;
+    double past[3];
+    way_past(frame, o, u, way.point, past);
+    way.way = past;
+    if (dot3(past, past) <= NODE_REACH * NODE_REACH || !plane_on_way(&o->start, frame->cell_size, &way, WAY_MARGIN, &plane)) return 0;
+    if (out) *out = contact_at(frame, o, way.point, node, plane.gap, plane.normal);
+    return 1;
 }
 
 /* How deep [cells] in an obstacle a node is more than on its surface. */
@@ -160,7 +155,13 @@ static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *aro
         if (out) out[count] = contact_at(frame, o, point, node, face[i].distance, face[i].normal);
         count++;
     }
-    return count + contacts_ahead(frame, &around->near, u, point, node, face, faces, out ? out + count : NULL);
+    Plane known[FIELD_FACES];
+    for (int i = 0; i < faces; i++) memcpy(known[i].normal, face[i].normal, sizeof known[i].normal);
+    for (int k = 0; k < around->near.count; k++) {
+        const Obstacle *o = around->near.obstacle[k];
+        if (o->start.grid) count += contact_ahead(frame, o, u, node, &(Way){.point = point, .known = known, .count = faces}, out ? out + count : NULL);
+    }
+    return count;
 }
 
 /* Whether a node is led by walls: it stays where it was taken, or follows; see joint.h. A node before them that a solid reaches has contacts as elsewhere. */

@@ -61,8 +61,8 @@ static bool pulls_obliquely(const World *world)
 static double rests_at(const Adviser *adviser, uint32_t slot)
 {
     static const double MUCH = 0.25; /* of the floor: in a pool of four cells one column is beside a wall */
-    if (adviser->survey.heap[slot].leans > MUCH) return LEANING;
-    return pulls_obliquely(adviser->world) ? OBLIQUE : RESTS;
+    if (pulls_obliquely(adviser->world)) return OBLIQUE;
+    return adviser->survey.heap[slot].leans > MUCH ? LEANING : RESTS;
 }
 
 /* The rms speed [m/s] that is foreseen where f falls by the square of `factor`, see above. */

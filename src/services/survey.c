@@ -254,13 +254,6 @@ static void measure_sizes(const World *world, Cells *cells, int down, bool float
     if (down >= 0 && any_liquid(world)) sizes->uneven = survey_level(world, cells, down, pull);
 }
 
-static double leaning_of(const World *world, const Cells *cells, int down)
-{
-    double pull[3];
-    gravity_direction(world, pull);
-    return survey_leaning(world, cells, down, pull);
-}
-
 static void look_at_cells(const World *world, Cells *cells, Survey *survey)
 {
     double filling[PBMPM_MAX_MATERIALS + 1] = {0}, error[PBMPM_MAX_MATERIALS + 1], overlapping[PBMPM_MAX_MATERIALS + 1] = {0};
@@ -272,7 +265,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     if (world->step_count == 0) survey_overlaps(cells, overlapping);
     look_at_balls(world, cells, survey);
     if (floats) survey->meets = fastest_meeting(world, cells);
-    if (down >= 0 && any_liquid(world)) sizes.leans = leaning_of(world, cells, down);
+    if (down >= 0 && any_liquid(world)) sizes.leans = survey_leaning(world, cells, down);
     survey_find_bodies(cells);
     if (down >= 0) look_below(world, cells, down, floats, survey);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {

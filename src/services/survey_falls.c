@@ -269,19 +269,23 @@ void survey_slopes(const World *world, const Cells *cells, int axis, uint32_t sl
     for (int a = 0; a < world->def.dimension; a++) heap->falls_both_ways = heap->falls_both_ways || (sides >> domain_place(a, false) & 3) == 3;
 }
 
-/* Whether an obstacle below a cell is nearer or farther a cell beside. Less than LEVEL is none, and more than STEP is an edge. */
-static bool leans_below(const World *world, const Share *bottom, const double down[3], int side, bool *borne)
+/* Whether an obstacle below a cell is nearer or farther a cell beside. Less than LEVEL is none, and more than STEP is an edge. From a cell higher, as what is in a last cell may end above its middle. */
+static bool leans_below(const World *world, const Share *bottom, int axis, int side, bool *borne)
 {
     static const double REACH = 4.0, LEVEL = 0.05, STEP = 2.0; /* [cells] */
-    Share beside = *bottom;
-    beside.cell[side]++;
-    const double here = survey_cells_to_obstacle(world, bottom, down, REACH), there = survey_cells_to_obstacle(world, &beside, down, REACH);
-    const double rise = here - there - down[side]; /* of a level floor the cell beside is nearer by how much lower it is */
+    const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
+    Share above = *bottom;
+    double down[3] = {0};
+    down[axis] = way;
+    above.cell[axis] -= way;
+    const double here = survey_cells_to_obstacle(world, &above, down, REACH);
+    above.cell[side]++;
+    const double there = survey_cells_to_obstacle(world, &above, down, REACH), rise = fabs(here - there);
     *borne = *borne || here < REACH;
-    return here < REACH && there < REACH && fabs(rise) > LEVEL && fabs(rise) < STEP;
+    return here < REACH && there < REACH && rise > LEVEL && rise < STEP;
 }
 
-double survey_leaning(const World *world, const Cells *cells, int axis, const double down[3])
+double survey_leaning(const World *world, const Cells *cells, int axis)
 {
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
     double looked = 0.0, leaning = 0.0;
@@ -292,7 +296,7 @@ double survey_leaning(const World *world, const Cells *cells, int axis, const do
         const Share *share = &cells->share[i];
         bool borne = false, leans = false;
         if (share->group != 0 || !survey_group_ends(cells, share, axis, way) || number++ % stride != 0) continue;
-        for (int a = 0; a < world->def.dimension; a++) leans = leans || (a != axis && leans_below(world, share, down, a, &borne));
+        for (int a = 0; a < world->def.dimension; a++) leans = leans || (a != axis && leans_below(world, share, axis, a, &borne));
         looked += borne;
         leaning += leans;
     }

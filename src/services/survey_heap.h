@@ -16,7 +16,7 @@ typedef struct Heap {
     double width;      /* the same across it, along the axis where that is least */
     double thickness;  /* the least over the axes, where it is thickest */
     double uneven;     /* how far its surface is from level, root mean square over columns of three cells and more; of all liquids together; 0 for solids */
-    double leans;      /* share of what holds it up that leans, from 3 to 63 degrees; of all liquids together; 0 for solids */
+    double leans;      /* share of what holds it up that leans by 3 to 63 degrees from gravity's axis; of all liquids together; 0 for solids */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
     double filling_error; /* standard error of that mean */
     double kept;       /* mean det F: the share of its rest volume that its strain says it takes; solids */

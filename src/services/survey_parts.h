@@ -12,8 +12,8 @@ void survey_runs(Cells *cells, int axis, double mean[PBMPM_MAX_MATERIALS + 1]);
  * under a wall that leans they end below the surface. Thin ones may be spray. */
 double survey_level(const World *world, Cells *cells, int axis, const double down[3]);
 
-/* Which share of what holds liquids up leans. `down`: where gravity pulls to. Sorted by cell. */
-double survey_leaning(const World *world, const Cells *cells, int axis, const double down[3]);
+/* Which share of what holds liquids up leans against gravity's axis. Sorted by cell. */
+double survey_leaning(const World *world, const Cells *cells, int axis);
 
 /* Which share of each solid stands between obstacles along an axis. */
 void survey_room(const World *world, Cells *cells, int axis, double narrow[PBMPM_MAX_MATERIALS + 1]);

@@ -91,23 +91,23 @@ int tangent_planes(const Solid *solid, double cell_size, const double point[3], 
 }
 
 /* From distance to distance, less the margin, at least half a cell. */
-bool plane_on_way(const Solid *solid, double cell_size, const double point[3], const double way[3], double margin, const Plane *known, int count, Plane *plane)
+bool plane_on_way(const Solid *solid, double cell_size, const Way *way, double margin, Plane *plane)
 {
-    const Lookout l = {.solid = solid, .cell_size = cell_size, .point = point, .distance = solid_gap(solid, point) / cell_size};
-    const double length = sqrt(dot3(way, way));
+    const Lookout l = {.solid = solid, .cell_size = cell_size, .point = way->point, .distance = solid_gap(solid, way->point) / cell_size};
+    const double length = sqrt(dot3(way->way, way->way));
     Sample best = {.distance = INFINITY};
     double gone = fmax(l.distance - margin, 0.5);
     for (bool last = false; !last && l.distance > 0.0;) {
         double offset[3], there[3];
         last = gone >= length;
-        for (int a = 0; a < 3; a++) offset[a] = length > 0.0 ? way[a] * fmin(gone / length, 1.0) : 0.0;
+        for (int a = 0; a < 3; a++) offset[a] = length > 0.0 ? way->way[a] * fmin(gone / length, 1.0) : 0.0;
         const Sample sample = look(&l, offset);
         if (sample.distance < 0.0) break;
-        if (sample.distance < best.distance && !is_known(known, count, sample.normal)) best = sample;
+        if (sample.distance < best.distance && !is_known(way->known, way->count, sample.normal)) best = sample;
         point_at(&l, offset, there);
         gone += fmax(solid_least(solid, there) / cell_size - margin, 0.5);
     }
-    if (best.distance > margin || dot3(best.normal, way) >= 0.0) return false;
+    if (best.distance > margin || dot3(best.normal, way->way) >= 0.0) return false;
     *plane = plane_of(&best);
     return true;
 }

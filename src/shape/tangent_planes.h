@@ -18,8 +18,15 @@ typedef struct Plane {
  * solid's normal and, as the gap, its distance at the point [cells]. */
 int tangent_planes(const Solid *solid, double cell_size, const double point[3], const Plane *nearest, double margin, Plane planes[PLANES_MAX]);
 
-/* Follows the way [cells] of a point outside to where it comes closest to a surface that none of `count` known planes stands for, or enters the solid. False: it
- * stays farther off than the margin, or leaves. */
-bool plane_on_way(const Solid *solid, double cell_size, const double point[3], const double way[3], double margin, const Plane *known, int count, Plane *plane);
+/* Where a point [m] wants to go [cells], and the planes that are known to be in its way. */
+typedef struct Way {
+    const double *point, *way;
+    const Plane *known;
+    int count;
+} Way;
+
+/* Follows a way to where it comes closest to a surface that no known plane stands for, or enters the solid. False: it stays farther off than the margin, or leaves.
+ * The point is outside. */
+bool plane_on_way(const Solid *solid, double cell_size, const Way *way, double margin, Plane *plane);
 
 #endif

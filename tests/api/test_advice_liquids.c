@@ -1,5 +1,6 @@
 /* Advice of liquids: pools, what floats on them, walls that they slip on, and volume that they lost. */
 #include <math.h>
+#include <string.h>
 
 #include "advised.h"
 
@@ -85,6 +86,39 @@ static void test_how_fast_a_pool_stirs(void)
         set_rate(world, (int32_t)advice->value - 1, cases[i].iterations);
         expect(world, PBMPM_ADVICE_POOL_STIRS);
         set_gravity(world, 0, 0, 0);
+        expect_none(world, PBMPM_ADVICE_POOL_STIRS);
+    }
+}
+
+/* On ground that leans it stirs at ten times the speed. A step in a level floor is no slope, and a pool of two cells is too shallow. */
+static void test_a_pool_on_a_slope(void)
+{
+    static const struct {
+        int32_t dimension;
+        float angle, depth;
+        bool step, told;
+    } cases[] = {{2, 0.15f, 0.4f, false, true}, {3, 0.15f, 0.4f, false, true}, {2, 0, 0.4f, false, false}, {2, 0, 0.4f, true, false}, {2, 0.15f, 0.1f, false, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        pbmpm_world_def def = default_world(cases[i].dimension, 0.05f, 32768);
+        const float deep = cases[i].depth, c = cosf(0.5f * cases[i].angle), s = sinf(0.5f * cases[i].angle);
+        def.domain_enabled = 1;
+        def.domain_max[1] = 2;
+        const pbmpm_world_id world = create_world(&def);
+        pbmpm_shape ground = box_shape(0.5f, 0, 0.5f, 2, 0.2f, 2);
+        if (cases[i].dimension == 2) ground.rotation[2] = s;
+        else ground.rotation[0] = s;
+        ground.rotation[3] = c;
+        set_gravity(world, 0, -9.81f, 0);
+        create_collider(world, ground, false);
+        if (cases[i].step) create_collider(world, box_shape(0.25f, 0, 0.5f, 0.25f, 0.3f, 2), false);
+        fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.5f, 0.3f + 0.5f * deep, 0.5f, 0.5f, 0.5f * deep, 0.5f), STILL);
+        if (cases[i].told) {
+            const pbmpm_advice *advice = expect(world, PBMPM_ADVICE_POOL_STIRS);
+            const float f = 9.81f * DT * DT * deep / (0.05f * 0.05f), speed = 0.016f * f * 0.05f / DT;
+            TEST_ASSERT_FLOAT_WITHIN(0.1f * speed, speed, advice->figure);
+            TEST_ASSERT_NOT_NULL(strstr(advice->text, "leans"));
+            set_rate(world, (int32_t)advice->value, 5);
+        }
         expect_none(world, PBMPM_ADVICE_POOL_STIRS);
     }
 }
@@ -367,6 +401,7 @@ int main(void)
     RUN_TEST(test_a_pool_too_deep_for_the_rate);
     RUN_TEST(test_a_pool_too_deep_for_the_papers_solver);
     RUN_TEST(test_how_fast_a_pool_stirs);
+    RUN_TEST(test_a_pool_on_a_slope);
     RUN_TEST(test_a_pool_that_moves);
     RUN_TEST(test_a_pool_that_moves_in_a_thin_glass);
     RUN_TEST(test_a_pool_at_rest_is_solved);

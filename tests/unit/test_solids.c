@@ -619,7 +619,7 @@ static void check_ways(int d, double most)
             deepest = fmin(deepest, solid_distance(&solid, there, unused) / cell);
         }
         int planes = tangent_planes(&solid, cell, point, &nearest, margin, plane);
-        if (plane_on_way(&solid, cell, point, way, margin, plane, planes, &ahead)) plane[planes++] = ahead;
+        if (plane_on_way(&solid, cell, &(Way){point, way, plane, planes}, margin, &ahead)) plane[planes++] = ahead;
         bool forbidden = false;
         for (int k = 0; k < planes; k++) {
             const double along = plane[k].normal[0] * way[0] + plane[k].normal[1] * way[1] + plane[k].normal[2] * way[2];
