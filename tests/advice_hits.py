@@ -3,8 +3,8 @@
 
     build/venv/bin/python tests/advice_hits.py PATH [CASE...] [--settings 60x5,240x5] [--json FILE]
 
-PATH is a file of field cases, or tests/field for their variations: ordinary scenes, and checks of what a stranger would see. Each world is asked for advice before its first step and after its last. A
-check counts as warned of if a record of a code that speaks of what it measures came with a world since the check before it belonged to. Printed
+PATH is a file of field cases, or tests/field for their variations: ordinary scenes, and checks of what a stranger would see. Each world is asked for advice before its first step and as
+``pbmpm run`` does on the way. A check counts as warned of if a record of a code that speaks of what it measures came with a world since the check before it belonged to. Printed
 are each check with the codes, hits (misses of the band that were warned of) and false alarms (checks inside their band that were); exit
 status 1 if less than 90 % of the misses are warned of, or more than 10 % of the others are."""
 
@@ -20,6 +20,8 @@ from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
+
+from pbmpm.lab.advising import AdviceHistory
 
 CODES = {
     "volume": {"POOL_TOO_DEEP", "VOLUME_LOST", "STRAIN_CLAMPED"},
@@ -109,6 +111,33 @@ def load(path: Path) -> ModuleType:
     return module
 
 
+class Watched:
+    """A world that is asked for advice before its first step and on the way, as ``pbmpm run`` asks."""
+
+    def __init__(self, world: Any, rate: float) -> None:
+        self.first = world.advice(1 / rate)
+        self._world, self._rate, self._steps = world, rate, 0
+        self._every = max(1, round(rate / AdviceHistory.LOOKS))
+        self._history = AdviceHistory(self.first)
+
+    def step(self, dt: float) -> None:
+        self._world.step(dt)
+        self._steps += 1
+        if self._steps % self._every == 0:
+            self._look()
+
+    def _look(self) -> None:
+        self._history.look(self._world.advice(1 / self._rate), self._steps / self._rate)
+
+    def told(self) -> list[Any]:
+        if self._steps % self._every:
+            self._look()
+        return [item for item, _ in self._history.told()]
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._world, name)
+
+
 def listening(run: type, name_of: Callable[[Any], str]) -> type:
     """The field cases' run, which asks for advice around the steps of a world."""
 
@@ -125,9 +154,10 @@ def listening(run: type, name_of: Callable[[Any], str]) -> type:
             return super().world(*arguments, **more)
 
         def steps(self, world: Any, *arguments: Any, **more: Any) -> None:
-            self.before += world.advice(1 / self.rate)
-            super().steps(world, *arguments, **more)
-            self.after = world.advice(1 / self.rate)
+            watched = Watched(world, self.rate)
+            super().steps(watched, *arguments, **more)
+            self.before += watched.first
+            self.after = watched.told()
 
         def check(self, what: str, *arguments: Any, **more: Any) -> None:
             super().check(what, *arguments, **more)

@@ -21,42 +21,54 @@ def advice_rows(simulation: Simulation, found: list[pbmpm.Advice]) -> list[dict[
     return [_row(simulation, item) for item in found]
 
 
-class AdviceWatch:
-    """Looks at a run's advice again and again: matter that was crushed on the way may have its volume back in the end."""
+class AdviceHistory:
+    """What a run was advised, again and again: matter that was crushed on the way may have its volume back in the end."""
 
     LOOKS = 8  #: per simulated second, at the same times however long the run is
     FEW = 0.1  #: of the looks: what came true in fewer, and not in the last, passed by
 
-    def __init__(self, simulation: Simulation, first: list[pbmpm.Advice]) -> None:
-        self._simulation = simulation
+    def __init__(self, first: list[pbmpm.Advice]) -> None:
+        """``first``: what was said before the first step."""
         self._first = {_key(item) for item in first}
         self._looks = 0
         self._last: set[tuple[Any, ...]] = set()
         self._seen: dict[tuple[Any, ...], int] = {}
         self._worst: dict[tuple[Any, ...], tuple[pbmpm.Advice, float]] = {}
 
-    def look(self) -> None:
+    def look(self, advice: list[pbmpm.Advice], time: float) -> None:
         """Notes what is advised now."""
-        found = {_key(item): item for item in self._simulation.advice()}
+        found = {_key(item): item for item in advice}
         self._looks += 1
         self._last = set(found)
         for key, item in found.items():
             self._seen[key] = self._seen.get(key, 0) + 1
             if key not in self._worst or _excess(item) > _excess(self._worst[key][0]):
-                self._worst[key] = (item, self._simulation.time)
+                self._worst[key] = (item, time)
 
-    def _told(self) -> list[tuple[pbmpm.Advice, float]]:
+    def told(self) -> list[tuple[pbmpm.Advice, float]]:
         """What was not said before the first step: the worst of each, and when that was [s], in the order of these times."""
         lasting = {key for key, count in self._seen.items() if count > self.FEW * self._looks} | self._last
         return sorted((found for key, found in self._worst.items() if key in lasting and key not in self._first), key=lambda found: found[1])
 
+
+class AdviceWatch:
+    """Looks at a simulation's advice, and tells it in words."""
+
+    def __init__(self, simulation: Simulation, first: list[pbmpm.Advice]) -> None:
+        self._simulation = simulation
+        self._history = AdviceHistory(first)
+
+    def look(self) -> None:
+        """Notes what is advised now."""
+        self._history.look(self._simulation.advice(), self._simulation.time)
+
     def lines(self) -> list[str]:
         """One line each."""
-        return [f"{f'came true at {time:.3g} s' if item.came_true else 'advice'}: {_line(self._simulation, item)}" for item, time in self._told()]
+        return [f"{f'came true at {time:.3g} s' if item.came_true else 'advice'}: {_line(self._simulation, item)}" for item, time in self._history.told()]
 
     def rows(self) -> list[dict[str, Any]]:
         """The same for reports."""
-        return [{**_row(self._simulation, item), "time_s": time} for item, time in self._told()]
+        return [{**_row(self._simulation, item), "time_s": time} for item, time in self._history.told()]
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from .advising import AdviceWatch, advice_lines, advice_rows
+from .advising import AdviceHistory, AdviceWatch, advice_lines, advice_rows
 from .effects.catalogue import effects_on, remarks
 from .frame import Frame
 from .machine import machine_facts
@@ -114,7 +114,7 @@ def run_scene(
 
 
 def _loop(simulation: Simulation, steps: int, recorder: _Recorder, meter: Meter, watch: AdviceWatch, interrupt: Interrupt) -> None:
-    shown, every = 0.0, max(1, round(simulation.settings.rate_hz / AdviceWatch.LOOKS))
+    shown, every = 0.0, max(1, round(simulation.settings.rate_hz / AdviceHistory.LOOKS))
     with progress_bar(steps, "step", simulation.scene.name) as bar:
         recorder.after_step(simulation)
         for step in range(steps):
