@@ -75,7 +75,7 @@ static bool way_passes(const ContactFrame *frame, const Obstacle *o, const float
     return distance + crossing * leaving > WAY_MARGIN;
 }
 
-/* The contact that a baked obstacle gives a node on a way that is longer than the field looks, beyond the planes there: with the far wall of a hollow. */
+/* The contact that a baked obstacle gives a node whose way is longer than NODE_REACH, beside the planes around it: with what it meets there, the far wall of a hollow. */
 static uint32_t contact_ahead(const ContactFrame *frame, const Obstacle *o, const float *u, int node, const Way *known, Contact *out)
 {
     Way way = *known;
@@ -147,19 +147,24 @@ static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *aro
     if (both)
         faces = 2;
     else if (faces > 0 && face[0].distance < -INSIDE) faces = field_outer_faces(&around->near, point, NODE_REACH, face, faces);
+    bool meets[FIELD_FACES] = {false};
     for (int i = 0; i < faces; i++) {
         const Obstacle *o = face[i].obstacle;
         int k = 0;
         while (around->near.obstacle[k] != o) k++;
-        if (face[i].distance > around->reach[k] || way_passes(frame, o, u, point, face[i].distance, face[i].normal)) continue;
-        if (out) out[count] = contact_at(frame, o, point, node, face[i].distance, face[i].normal);
-        count++;
+        const double reach = o->start.grid ? fmin(around->reach[k], NODE_REACH) : around->reach[k]; /* farther off the normal of a grid is not exact enough: see contact_ahead() */
+        meets[i] = face[i].distance <= reach && !way_passes(frame, o, u, point, face[i].distance, face[i].normal);
+        if (meets[i] && out) out[count] = contact_at(frame, o, point, node, face[i].distance, face[i].normal);
+        count += meets[i];
     }
-    Plane known[FIELD_FACES];
-    for (int i = 0; i < faces; i++) memcpy(known[i].normal, face[i].normal, sizeof known[i].normal);
     for (int k = 0; k < around->near.count; k++) {
         const Obstacle *o = around->near.obstacle[k];
-        if (o->start.grid) count += contact_ahead(frame, o, u, node, &(Way){.point = point, .known = known, .count = faces}, out ? out + count : NULL);
+        Plane known[FIELD_FACES];
+        Way way = {.point = point, .known = known};
+        if (!o->start.grid) continue;
+        for (int i = 0; i < faces; i++)
+            if (meets[i] && face[i].obstacle == o) known[way.count++] = (Plane){.normal = {face[i].normal[0], face[i].normal[1], face[i].normal[2]}, .gap = face[i].distance};
+        count += contact_ahead(frame, o, u, node, &way, out ? out + count : NULL);
     }
     return count;
 }

@@ -129,24 +129,18 @@ static bool is_at_edge(const Near *near, const Obstacle *o, const double place[3
     return !leave_edge(near, o, there, normal) || memcmp(before, normal, sizeof before) != 0;
 }
 
-/* Where a solid is asked whether the space is open before a place. At its rounded edge, which is flush with a face, the space seems open just before it. A step of its grid
- * farther off it has its true distance again. */
-static double before_of(const Near *near, const Obstacle *o, const double place[3])
-{
-    const DistanceGrid *grid = field_solid(near, o)->grid;
-    return grid && is_at_edge(near, o, place) ? BEFORE + grid->spacing / near->cell_size : BEFORE;
-}
-
-/* Whether the space is open before a place where these faces meet. A face may lie farther out by as much as the edge there is rounded. */
+/* Whether the space is open before a place where these faces meet. A face may lie farther out by as much as the edge there is rounded. At the rounded edge of another solid, which is
+ * flush with a face, the space seems open just before it: a step of its grid farther off it has its true distance again. */
 static bool is_open_before(const Near *near, const double place[3], const Face *const *face, int count)
 {
-    double rounded = 0.0;
-    for (int k = 0; k < count; k++) {
-        const Obstacle *owner = face[k]->obstacle;
-        if (field_solid(near, owner)->grid && is_at_edge(near, owner, place)) rounded = fmax(rounded, rounding_of(near, owner));
+    double rounded[PBMPM_MAX_COLLIDERS + DOMAIN_WALLS], owners = 0.0;
+    for (int i = 0; i < near->count; i++) {
+        const Obstacle *o = near->obstacle[i];
+        rounded[i] = field_solid(near, o)->grid && is_at_edge(near, o, place) ? rounding_of(near, o) : 0.0;
+        for (int k = 0; k < count; k++) owners = face[k]->obstacle == o ? fmax(owners, rounded[i]) : owners;
     }
     for (int i = 0; i < near->count; i++) {
-        const double length = fmax(before_of(near, near->obstacle[i], place), BEFORE + rounded);
+        const double length = BEFORE + fmax(owners, 2.0 * rounded[i]);
         double before[3] = {place[0], place[1], place[2]};
         for (int k = 0; k < count; k++) ahead(near, before, length, face[k]->normal, before);
         if (solid_gap(field_solid(near, near->obstacle[i]), before) <= ON_SURFACE * near->cell_size) return false;
@@ -426,31 +420,32 @@ static bool is_edge_open(const Near *near, const double edge[3], const Face *con
     return true;
 }
 
-/* Whether matter near a baked solid may meet all its edges there. */
-static bool are_baked_edges_open(const Near *near, const Obstacle *o, const double point[3])
+/* Whether other obstacles hide the edge of a baked solid that `nearest` lies on. `all`: its faces there. */
+static bool is_edge_hidden(const Near *near, const Face *nearest, const Face *all, int count)
 {
-    Face all[CANDIDATES];
-    const int count = baked_faces(near, o, point, NODE_REACH, all, CANDIDATES);
+    const double step = 2.0 * rounding_of(near, nearest->obstacle) * near->cell_size; /* so far a place on a rounded edge may be from the edge */
     for (int i = 0; i < count; i++)
         for (int j = i + 1; j < count; j++) {
             const Face *edge[2] = {&all[i], &all[j]};
-            double way[3], place[3];
+            double way[3], place[3], off[3];
             if (!meet(edge, 2, way)) continue;
-            ahead(near, point, 1.0, way, place);
-            if (is_on_face(near, &all[i], place) && !is_edge_open(near, place, edge)) return false;
+            for (int a = 0; a < 3; a++) {
+                place[a] = all[i].foot[a] + (all[i].distance * all[i].normal[a] + way[a]) * near->cell_size; /* from the point that both were seen from */
+                off[a] = place[a] - nearest->foot[a];
+            }
+            if (dot3(off, off) <= step * step && is_on_face(near, &all[i], place) && !is_edge_open(near, place, edge)) return true;
         }
-    return true;
+    return false;
 }
 
-/* Whether the nearest place of an obstacle, seen from outside, is one that matter may meet: on a face that is open, or on an edge both of whose faces are. The edge of
- * a tile beside another one is none. A grid rounds its edges: the nearest place on one has a normal between those of the faces. */
+/* Whether the nearest place of an exact obstacle, seen from outside, is one that matter may meet: on a face that is open, or on an edge both of whose faces are. The edge of
+ * a tile beside another one is none. */
 static bool is_exposed(const Near *near, const Face *face, const double point[3])
 {
     const Solid *s = field_solid(near, face->obstacle);
     double before[3], local[3];
     int outside = 0;
-    if ((face->distance > BEFORE || s->grid) && !is_open_before(near, face->foot, &face, 1)) return false;
-    if (s->grid) return !is_at_edge(near, face->obstacle, face->foot) || are_baked_edges_open(near, face->obstacle, point);
+    if (face->distance > BEFORE && !is_open_before(near, face->foot, &face, 1)) return false;
     if (s->kind != PBMPM_BOX) return true;
     along_axes(s, point, local);
     for (int a = 0; a < s->dimension; a++) outside += fabs(local[a]) > s->half_extents[a] + ON_SURFACE * near->cell_size;
@@ -489,8 +484,9 @@ static int add_face(Face face[FIELD_FACES], int count, const Face *seen, int mos
 
 /* The nearest face of a baked solid, and those of its hollows. Where a point is as near to two of these, the grid of distances has a normal between them, and its foot is on
  * no surface: then it is left out. */
-static int add_baked(const Near *near, const Face *first, const double point[3], double reach, Face face[FIELD_FACES], int count, int most)
+static int add_baked(const Near *near, const Face *first, const double point[3], double reach, Face face[FIELD_FACES], int count)
 {
+    const int most = near->dimension;
     const Solid *s = field_solid(near, first->obstacle);
     Plane plane[PLANES_MAX];
     const Plane nearest = {.normal = {first->normal[0], first->normal[1], first->normal[2]}, .gap = first->distance};
@@ -504,13 +500,36 @@ static int add_baked(const Near *near, const Face *first, const double point[3],
     return count;
 }
 
-/* Where the nearest place of a baked solid is the edge that it stands on, its other faces. A point in the open is behind none by more than edges are rounded. */
-static int add_above_edge(const Near *near, const Obstacle *o, const double point[3], double reach, Face face[FIELD_FACES], int count)
+/* Whether the foot on one of the faces of a baked solid lies beyond an outer edge of it. Its distance does not tell, if that is less than edges are rounded: but farther from there the
+ * distance grows, while along an inner edge the face goes on. */
+static bool is_beyond_edge(const Near *near, const Face *all, int count, const Face *face)
 {
+    const Solid *s = field_solid(near, face->obstacle);
+    const double rounding = rounding_of(near, face->obstacle);
+    for (int j = 0; j < count; j++) {
+        const double before = distance_to(near, &all[j], face->foot);
+        double farther[3];
+        if (before <= ON_SURFACE || before > rounding || dot3(all[j].normal, face->normal) > SAME_DIRECTION) continue;
+        ahead(near, face->foot, 2.0 * rounding, all[j].normal, farther);
+        if (solid_gap(s, farther) > rounding * near->cell_size) return true;
+    }
+    return false;
+}
+
+/* What is seen of a baked solid: its nearest face, and those of hollows. Where the nearest place is on an edge that others hide, that has a normal between those of the faces: then the
+ * faces, none of which a point in the open is behind by more than edges are rounded. */
+static int add_seen_of_baked(const Near *near, const Face *nearest, const double point[3], double reach, Face face[FIELD_FACES], int count)
+{
+    static const double AROUND = 2.5; /* [cells] as far as parents of nodes at walls lie, see walls_find.c; baked_faces() looks at places so far off */
+    const bool open = is_open_before(near, nearest->foot, &nearest, 1);
+    const bool rounded = near->count > 1 && is_at_edge(near, nearest->obstacle, nearest->foot);
+    if (open && !rounded) return add_baked(near, nearest, point, reach, face, count);
     Face all[CANDIDATES];
-    const int candidates = baked_faces(near, o, point, reach, all, CANDIDATES);
+    const int candidates = baked_faces(near, nearest->obstacle, point, fmin(reach, AROUND), all, CANDIDATES);
+    if (open && !is_edge_hidden(near, nearest, all, candidates)) return add_baked(near, nearest, point, reach, face, count);
     for (int i = 0; i < candidates; i++)
-        if (all[i].distance >= -rounding_of(near, o) && bounds_space(near, &all[i])) count = add_face(face, count, &all[i], near->dimension);
+        if (all[i].distance >= -rounding_of(near, nearest->obstacle) && bounds_space(near, &all[i]) && !is_beyond_edge(near, all, candidates, &all[i]))
+            count = add_face(face, count, &all[i], near->dimension);
     return count;
 }
 
@@ -525,16 +544,12 @@ static int faces_seen(const Near *near, const double point[3], double reach, Fac
         const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
         if (distance > reach) continue;
         const Face seen = face_at(near, o, point, distance, normal);
-        const bool baked = field_solid(near, o)->grid != NULL;
-        if (!is_exposed(near, &seen, point)) {
-            if (baked) count = add_above_edge(near, o, point, reach, face, count);
-            if (hides < CANDIDATES) hidden[hides++] = seen;
-            continue;
-        }
-        if (baked)
-            count = add_baked(near, &seen, point, reach, face, count, near->dimension);
-        else
+        if (field_solid(near, o)->grid)
+            count = add_seen_of_baked(near, &seen, point, reach, face, count);
+        else if (is_exposed(near, &seen, point))
             count = add_face(face, count, &seen, near->dimension);
+        else if (hides < CANDIDATES)
+            hidden[hides++] = seen;
     }
     const int seen = count;
     for (int i = 0; i < hides; i++)

@@ -103,11 +103,11 @@ bool plane_on_way(const Solid *solid, double cell_size, const Way *way, double m
         for (int a = 0; a < 3; a++) offset[a] = length > 0.0 ? way->way[a] * fmin(gone / length, 1.0) : 0.0;
         const Sample sample = look(&l, offset);
         if (sample.distance < 0.0) break;
-        if (sample.distance < best.distance && !is_known(way->known, way->count, sample.normal)) best = sample;
+        if (sample.distance < best.distance && dot3(sample.normal, way->way) < 0.0 && !is_known(way->known, way->count, sample.normal)) best = sample;
         point_at(&l, offset, there);
         gone += fmax(solid_least(solid, there) / cell_size - margin, 0.5);
     }
-    if (best.distance > margin || dot3(best.normal, way->way) >= 0.0) return false;
+    if (best.distance > margin) return false;
     *plane = plane_of(&best);
     return true;
 }

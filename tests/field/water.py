@@ -250,15 +250,20 @@ def flush_terrain(run: Run, material: Liquid | Sand, wide: float = 1.0, shift: f
     sand_off=dict(material=Sand(), shift=0.3),
     water_coarse=dict(material=Liquid(), shift=0.3, resolution=13),
     sand_coarse=dict(material=Sand(), shift=0.3, resolution=13),
+    water_tiles=dict(material=Liquid(), shift=0.6, rise=0.4, tiles=2),
+    water_tiles_coarse=dict(material=Liquid(), shift=0.3, rise=0.6, tiles=2, resolution=13),
+    sand_tiles=dict(material=Sand(), shift=0.6, rise=0.4, tiles=2),
 )
-def flush_floor(run: Run, material: Liquid | Sand, shift: float = 0.0, resolution: int = 20) -> None:
-    """A level floor that is baked from heights and ends at the boxes that are its walls; what is put on it rests."""
+def flush_floor(run: Run, material: Liquid | Sand, shift: float = 0.0, rise: float = 0.0, tiles: int = 1, resolution: int = 20) -> None:
+    """A level floor of tiles that are baked from heights, and end at the boxes that are its walls; what is put on it rests."""
+    place = np.array([shift, rise]) * CELL
     with run.world(2, CELL) as world:
         solid = world.load_solid(bake_heights(np.zeros(11, np.float32), 0.1, thickness=0.3, resolution=resolution))
-        world.add_collider(Baked((shift * CELL, 0), solid))
-        for middle in (-0.1, 1.1):
-            world.add_collider(Box((middle + shift * CELL, 0.3), (0.1, 0.8)))
-        world.add_particles(world.add_material(material), (lattice((0, 0), (1, 0.4), CELL / 2) + [shift * CELL, 0]).astype(np.float32))
+        for tile in range(tiles):
+            world.add_collider(Baked(place + [tile, 0], solid))
+        for middle in (-0.1, tiles + 0.1):
+            world.add_collider(Box(place + [middle, 0.3], (0.1, 0.8)))
+        world.add_particles(world.add_material(material), (lattice((0, 0), (tiles, 0.4), CELL / 2) + place).astype(np.float32))
         run.steps(world, 6)
         run.check("rms speed", rms(world), 0, 0.01, "m/s", why=REST)
         run.check("least volume ratio", float(world.volume_ratios.array().min()), 0.8, 2, why="no particle is crushed")
