@@ -42,7 +42,7 @@ static const double CALM_SPEED = 0.01; /* [m/s] a fifth of a cell of 5 cm per se
  * oblique to the grid, by 10, 20 and 45 degrees, it is 0.0026 to 0.0098 of f (tests/field/run.py still_pool deep_pool --settings 60x5). Around steps, shelves, ridges and balls it is 0.0006
  * to 0.0014 in ten of sixteen pools and up to 0.018, which nobody foretells; advise_pool_moves() tells it.
  * On floors that lean or curve it is 0.006 to 0.033 of f in eight of ten pools, 0.016 in the median (145 pools of 4 to 16 cells in valleys of 5 to 30 degrees and on waves of terrain, six
- * seconds after they were filled; tests/field/run.py lake). With two substeps it is a tenth.
+ * seconds after they were filled; tests/field/run.py lake). With two substeps it is a tenth to a third.
  * Above SHALLOW the pressures of five iterations do not reach the bottom: the speed is about DEEP f^2, with 3 iterations four times as much, with 10 and 20 hardly more. */
 static const double RESTS = 0.0013, OBLIQUE = 0.0045, LEANING = 0.016, SHALLOW = 3.0, DEEP = 0.0015, DEEP_ITERATIONS = 5.0;
 

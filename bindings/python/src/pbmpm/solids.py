@@ -177,7 +177,8 @@ def bake_heights(
         spacing: of the lattice [m]; one number, or one per direction.
         up: axis along which heights are measured.
         thickness: how far the base lies below the lowest sample [m]; default 1.
-        resolution: grid cells along the longest side; None: cells as wide as the lattice's.
+        resolution: grid cells along the longest side; None: cells as wide as the lattice's. Cells wider than the world's leak at
+            edges: scene files take `ceil(longest side / cell size)`.
         cache: as for `bake_mesh()`.
     """
     field = np.asarray(heights)
