@@ -38,9 +38,9 @@ typedef struct pbmpm_mesh_def {
 } pbmpm_mesh_def;
 
 /** A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] and
- *  j * spacing[1] along the axes other than `up` (2D: i alone). Let it go on a cell or two
- *  under walls: where it ends at them, matter may creep. With a grid wider than 1.5 cells of the world matter may slip
- *  down there (PBMPM_ADVICE_COLLIDER_TOO_COARSE). */
+ *  j * spacing[1] along the axes other than `up` (2D: i alone). Let bumpy ground go on a cell or two under walls: where
+ *  it ends at them, water may keep moving. With a grid wider than 1.5 cells of the world matter may slip down there
+ *  (PBMPM_ADVICE_COLLIDER_TOO_COARSE). */
 typedef struct pbmpm_heights_def {
     uint32_t size;        /**< sizeof(pbmpm_heights_def), set by pbmpm_heights_def_init() */
     int32_t dimension;    /**< 2 or 3; default 3 */

@@ -49,9 +49,9 @@ static double share_that_falls(const World *world, uint32_t samples, bool with_e
 static void advise_sticks_out(Adviser *adviser)
 {
     enum { SAMPLES = 1024 }; /* once in a scene */
-    static const double ROW = 0.005, MANY = 0.5; /* fewer than a row of particles at a wall; more are meant to fall */
+    static const double ROW = 0.005, MEANT = 0.5; /* fewer than a row of particles at a wall; more are meant to fall */
     const double share = adviser->world->step_count == 0 ? share_that_falls(adviser->world, SAMPLES, false) : 0.0;
-    if (share <= ROW || share >= MANY) return;
+    if (share <= ROW || share >= MEANT) return;
     adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)share, .bound = (float)ROW,
                                          .text = "this share of matter was put where nothing is below it, behind a wall perhaps: it falls until the kill bounds take it out"});
 }

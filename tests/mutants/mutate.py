@@ -84,7 +84,7 @@ class Workplace:
         self.build = folder / "build"
         self.python = python
 
-    def prepare(self) -> None:
+    def prepare(self, optimized: str = "-O1", target: str = "all") -> None:
         files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, check=True, capture_output=True, text=True)
         for name in filter(None, files.stdout.split("\0")):
             source, copy = ROOT / name, self.tree / name
@@ -93,10 +93,10 @@ class Workplace:
             if not copy.is_file() or copy.read_bytes() != source.read_bytes():
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 copy.write_bytes(source.read_bytes())
-        options = ["CMAKE_BUILD_TYPE=Release", "CMAKE_C_FLAGS_RELEASE=-O1", "PBMPM_ONE_ISA=ON", "PBMPM_SAMPLES=OFF", "PBMPM_INSTALL=OFF", "PBMPM_MCS=OFF"]
+        options = ["CMAKE_BUILD_TYPE=Release", f"CMAKE_C_FLAGS_RELEASE={optimized}", "PBMPM_ONE_ISA=ON", "PBMPM_SAMPLES=OFF", "PBMPM_INSTALL=OFF", "PBMPM_MCS=OFF"]
         options += ["CMAKE_LINK_DEPENDS_NO_SHARED=ON"]  # a fault in a library is linked once
         subprocess.run(["cmake", "-G", "Ninja", "-S", self.tree, "-B", self.build, *[f"-D{it}" for it in options]], check=True, stdout=subprocess.DEVNULL)
-        if not self.make("all"):
+        if not self.make(target):
             raise SystemExit(f"the sources as they are do not build: {self.build}")
         self.rules = (self.build / "build.ninja").read_text(encoding="utf-8")
 

@@ -1,13 +1,15 @@
 """Studies the constants that no theory gives: what the field tests and the hard cases say of half and of double of each.
 
     python3 tests/mutants/plateau.py build [--folder build/plateau]
+    build/venv/bin/python tests/mutants/plateau.py trace [--folder build/plateau] [--jobs 2]
     build/venv/bin/python tests/mutants/plateau.py judge [--folder build/plateau] [--jobs 2]
     python3 tests/mutants/plateau.py keep [--folder build/plateau]
 
-`build` makes a library for each constant whose comment says "by trial", with half and with double of it, and one without a change. It leaves out what
-plateaus.json beside this file tells already. `judge` runs with each the field tests at 60 Hz x 5 and the hard cases at their own settings, for minutes
-of a core; it can be stopped and goes on. It needs nothing but the folder, this tree and Python, so a larger machine can do it. `keep` adds what it
-found to plateaus.json, for constants.py.
+`build` makes a library for each constant whose comment says "by trial", with half and with double of it, one without a change, and one that notes where
+a constant acts (traced.py). `trace` runs the field tests at 60 Hz x 5 and the hard cases at their own settings with the latter and with the library as
+it is; their results must be equal. `judge` runs with each changed library those scenes that its constant acts in: elsewhere nothing can change. Both
+can be stopped and go on. They need nothing but the folder, this tree and Python, so a larger machine can do it. `keep` writes what was found to
+plateaus.json beside this file, for constants.py.
 """
 
 from __future__ import annotations
@@ -23,31 +25,45 @@ from pathlib import Path
 
 from constants import by_trial
 from faults import constants
+from traced import Traced, noted
 
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = Path(__file__).with_name("plateaus.json")
 FACTORS = {"halved": 0.5, "doubled": 2.0}
 AS_IT_IS = "as it is"
+ROUNDED = "other rounding"
 SUITES = ("field", "hard")
 LONGEST = 1800  # [s] of one suite with one library
 HARD_CASES = ("-m", "pbmpm", "stability", "--quick", "--solvers", "paper,dual,primal", "--dims", "2", "--processes", "1", "--json")
+Rows = dict[str, dict[str, object]]
+"""By check or run: whether it passed, and its figure."""
 
 
-def build(folder: Path) -> None:
+def build_traced(folder: Path) -> None:
+    from mutate import Workplace
+
+    place = Workplace(folder / "traced", python=False)
+    place.prepare("-O2", "pbmpm")
+    traced = Traced(place.tree, by_trial(constants(place.tree)))
+    traced.plant()
+    options = [f"-DCMAKE_C_FLAGS=-include {place.tree / 'tried.h'} -Wno-shadow", "-DPBMPM_WARNINGS_AS_ERRORS=OFF"]
+    subprocess.run(["cmake", *options, place.build], check=True, stdout=subprocess.DEVNULL)
+    traced.build(lambda: "" if place.make("-k0", "pbmpm") else (place.build / "make.log").read_text(encoding="utf-8"))
+    save(place.build, folder, "traced")
+    always = [traced.studied[number].key for number in sorted(traced.always)]
+    (folder / "traced.json").write_text(json.dumps({"keys": [it.key for it in traced.studied], "always": always}, indent=1), encoding="utf-8")
+
+
+def build_changed(folder: Path) -> None:
     from mutate import Workplace
 
     place = Workplace(folder / "work", python=False)
-    place.prepare()
-    for old in folder.glob("libpbmpm_*"):
-        old.unlink()
+    place.prepare("-O2", "pbmpm")
     index = [{"key": "", "change": AS_IT_IS, "library": save(place.build, folder, 0)}]
-    known = kept_so_far()
-    for constant in by_trial(constants(place.tree)):
+    for constant in sorted(by_trial(constants(place.tree)), key=lambda it: (it.file.startswith("ispc"), it.file.endswith(".h"))):
         path = place.tree / constant.file
         sound = path.read_text(encoding="utf-8")
         for change, factor in FACTORS.items():
-            if len(known.get(constant.key, {}).get(change, {})) == len(SUITES):
-                continue
             lines = sound.split("\n")
             lines[constant.line - 1] = constant.fault(lines[constant.line - 1], factor).after
             path.write_text("\n".join(lines), encoding="utf-8")
@@ -55,31 +71,91 @@ def build(folder: Path) -> None:
                 index.append({"key": constant.key, "change": change, "library": save(place.build, folder, len(index))})
             print(f"{len(index)}: {constant.name} {change}", flush=True)
         path.write_text(sound, encoding="utf-8")
+    subprocess.run(["cmake", "-DPBMPM_ONE_ISA=OFF", place.build], check=True, stdout=subprocess.DEVNULL)
+    place.make("pbmpm")
+    index.append({"key": "", "change": ROUNDED, "library": save(place.build, folder, len(index))})
     (folder / "index.json").write_text(json.dumps(index, indent=1), encoding="utf-8")
 
 
-def save(built: Path, folder: Path, number: int) -> str:
+def save(built: Path, folder: Path, name: object) -> str:
     """A copy of the library, without names that nobody needs here."""
-    name = f"libpbmpm_{number}.so"
-    subprocess.run(["strip", "-x", "-o", folder / name, built / "lib/libpbmpm.so"], check=True)
-    return name
+    file = f"libpbmpm_{name}.so"
+    subprocess.run(["strip", "-x", "-o", folder / file, built / "lib/libpbmpm.so"], check=True)
+    return file
 
 
-def studied_keys() -> set[str]:
-    """Of the constants by trial, as they are now, and of the library as it is."""
-    return {"", *(constant.key for constant in by_trial(constants(ROOT)))}
+def scenes(suite: str) -> list[str]:
+    """What can be run by itself."""
+    if suite == "field":
+        sys.path.insert(0, str(ROOT / "tests/field"))
+        from run import chosen
+
+        return [variant.name for variant in chosen([])]
+    from pbmpm.lab.stability.cases.catalogue import CASES
+
+    return sorted({case.id for case in CASES})
 
 
-def kept_so_far() -> dict[str, dict[str, dict[str, dict[str, object]]]]:
-    kept = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.is_file() else {}
-    return {key: found for key, found in kept.items() if key in studied_keys()}
+def rows_of(library: Path, suite: str, names: list[str], rows_file: Path, **environment: str) -> Rows:
+    """What a suite says of one library."""
+    command = [str(ROOT / "tests/field/run.py"), *names, "--settings", "60x5", "--json"] if suite == "field" else [*HARD_CASES[:3], *names, *HARD_CASES[3:]]
+    rows_file.write_text("[]" if suite == "field" else '{"rows": []}', encoding="utf-8")  # what is left of a library that crashes or never ends
+    known = os.environ | {"PBMPM_LIBRARY": str(library.resolve()), "PBMPM_ISA": "sse4"} | environment
+    try:
+        subprocess.run([sys.executable, *command, str(rows_file)], env=known, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, timeout=LONGEST)
+    except subprocess.TimeoutExpired:
+        print(f"{library.name} did not end in {LONGEST} s", flush=True)
+    rows = json.loads(rows_file.read_text(encoding="utf-8"))
+    rows_file.unlink()
+    return {name_of(row): {"passed": bool(row["passed"]), "figure": row.get("value")} for row in (rows if suite == "field" else rows["rows"])}
+
+
+def name_of(row: dict[str, object]) -> str:
+    return " ".join(str(row[part]) for part in ("case", "variant", "what", "solver", "material", "dims") if part in row)
+
+
+def trace(folder: Path, jobs: int, suites: list[str]) -> None:
+    """Scene by scene: its rows with the library as it is, and the constants that act in it."""
+    keys, always = (json.loads((folder / "traced.json").read_text(encoding="utf-8"))[part] for part in ("keys", "always"))
+    for suite in suites:
+        file = folder / f"acts.{suite}.jsonl"
+        done = {json.loads(line)["scene"] for line in file.read_text(encoding="utf-8").splitlines()} if file.is_file() else set()
+
+        def look(scene: str, suite: str = suite, file: Path = file) -> None:
+            mark = folder / "".join(it if it.isalnum() else "_" for it in f"{suite}_{scene}")
+            plain = rows_of(folder / "libpbmpm_0.so", suite, [scene], mark.with_suffix(".rows"))
+            rows = rows_of(folder / "libpbmpm_traced.so", suite, [scene], mark.with_suffix(".rows"), PBMPM_TRACE=str(mark))
+            if repr(rows) != repr(plain):
+                print(f"{scene}: the library that notes gives other results", flush=True)
+            notes = noted(mark)
+            acts = {key: [key in always or notes.get(number, (False, False))[i] for i in range(2)] for number, key in enumerate(keys)}
+            with file.open("a", encoding="utf-8") as out:
+                out.write(json.dumps({"scene": scene, "rows": plain, "acts": {key: it for key, it in acts.items() if any(it)}}) + "\n")
+
+        with ThreadPoolExecutor(jobs) as pool:
+            list(pool.map(look, [scene for scene in scenes(suite) if scene not in done]))
+
+
+def traces(folder: Path, suite: str) -> list[dict[str, object]]:
+    file = folder / f"acts.{suite}.jsonl"
+    return [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()] if file.is_file() else []
+
+
+def acts_in(folder: Path, entry: dict[str, str], suite: str) -> list[str]:
+    """The scenes where a change can change anything."""
+    found = traces(folder, suite)
+    if not entry["key"]:
+        return [str(it["scene"]) for it in found]
+    side = list(FACTORS).index(entry["change"])
+    return [str(it["scene"]) for it in found if it["acts"].get(entry["key"], (False, False))[side]]
 
 
 def judge(folder: Path, jobs: int, suites: list[str]) -> None:
-    """Suite by suite, so that a study that is stopped tells the same of all."""
-    index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
+    """Suite by suite, so that a study that is stopped tells the same of all; what takes least comes first."""
+    index = [it for it in json.loads((folder / "index.json").read_text(encoding="utf-8")) if it["change"] != AS_IT_IS]
     for suite in suites:
         todo = [it for it in index if not result_of(folder, it, suite).is_file()]
+        todo.sort(key=lambda it: len(acts_in(folder, it, suite)))
         with ThreadPoolExecutor(jobs) as pool:
             list(pool.map(lambda it: look_at(folder, it, suite), todo))
 
@@ -89,56 +165,53 @@ def result_of(folder: Path, entry: dict[str, str], suite: str) -> Path:
 
 
 def look_at(folder: Path, entry: dict[str, str], suite: str) -> None:
-    """What a suite says of one library: by check or run, whether it passed."""
     begin = time.monotonic()
-    environment = os.environ | {"PBMPM_LIBRARY": str((folder / entry["library"]).resolve()), "PBMPM_ISA": "sse4"}
-    rows_file = result_of(folder, entry, suite).with_suffix(".rows")
-    command = [str(ROOT / "tests/field/run.py"), "--settings", "60x5", "--json"] if suite == "field" else [*HARD_CASES]
-    rows_file.write_text("[]" if suite == "field" else '{"rows": []}', encoding="utf-8")  # what is left of a library that crashes or never ends
-    try:
-        subprocess.run([sys.executable, *command, str(rows_file)], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, timeout=LONGEST)
-    except subprocess.TimeoutExpired:
-        print(f"{entry['library']} did not end in {LONGEST} s", flush=True)
-    rows = json.loads(rows_file.read_text(encoding="utf-8"))
-    rows_file.unlink()
-    found = {name_of(row): bool(row["passed"]) for row in (rows if suite == "field" else rows["rows"])}
-    result_of(folder, entry, suite).write_text(json.dumps(found), encoding="utf-8")
-    print(f"{entry['library']} {entry['key']} {entry['change']}, {suite}: {sum(found.values())} of {len(found)} in {time.monotonic() - begin:.0f} s", flush=True)
-
-
-def name_of(row: dict[str, object]) -> str:
-    return " ".join(str(row[part]) for part in ("case", "variant", "what", "solver", "material", "dims") if part in row)
+    names = acts_in(folder, entry, suite)
+    file = result_of(folder, entry, suite)
+    rows = rows_of(folder / entry["library"], suite, names, file.with_suffix(".rows"), PBMPM_ISA="avx2" if entry["change"] == ROUNDED else "sse4") if names else {}
+    file.write_text(json.dumps(rows), encoding="utf-8")
+    passed = sum(bool(row["passed"]) for row in rows.values())
+    print(f"{entry['library']} {entry['key']} {entry['change']}, {suite}: {len(names)} scenes, {passed} of {len(rows)} in {time.monotonic() - begin:.0f} s", flush=True)
 
 
 def keep(folder: Path) -> None:
     """Counts of what passed, and what changed sides against the library as it is, of what was judged so far."""
     index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
-    kept = kept_so_far()
+    kept: dict[str, dict[str, dict[str, object]]] = {}
     for suite in SUITES:
-        results = [json.loads(it.read_text(encoding="utf-8")) if it.is_file() else None for it in (result_of(folder, entry, suite) for entry in index)]
-        base = results[0] or {}
-        for entry, result in zip(index, results, strict=True):
-            if result is None or entry["key"] not in studied_keys():
+        base: Rows = {name: row for it in traces(folder, suite) for name, row in it["rows"].items()}
+        for entry in index:
+            file = result_of(folder, entry, suite)
+            as_it_is = entry["change"] == AS_IT_IS
+            if not as_it_is and not file.is_file():
                 continue
+            changed = {} if as_it_is else json.loads(file.read_text(encoding="utf-8"))
+            names = acts_in(folder, entry, suite)
+            run = {name: row for it in traces(folder, suite) if it["scene"] in names for name, row in it["rows"].items()}
+            result = base | {name: changed.get(name, {"passed": False}) for name in run} if not as_it_is else base
             kept.setdefault(entry["key"], {}).setdefault(entry["change"], {})[suite] = {
-                "passed": sum(result.values()),
-                "of": len(result),
-                "lost": sorted(name for name, passed in base.items() if passed and not result.get(name, False)),
-                "won": sorted(name for name, passed in base.items() if not passed and result.get(name, False)),
+                "scenes": len(names),
+                "passed": sum(bool(row["passed"]) for row in result.values()),
+                "of": len(base),
+                "lost": sorted(name for name, row in base.items() if row["passed"] and not result[name]["passed"]),
+                "won": sorted(name for name, row in base.items() if not row["passed"] and result[name]["passed"]),
             }
     KEPT.write_text(json.dumps(kept, indent=0) + "\n", encoding="utf-8")
 
 
 def main() -> int:
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("part", choices=("build", "judge", "keep"))
+    arguments.add_argument("part", choices=("build", "trace", "judge", "keep"))
     arguments.add_argument("--folder", type=Path, default=ROOT / "build/plateau")
     arguments.add_argument("--jobs", type=int, default=2)
     arguments.add_argument("--suites", nargs="+", choices=SUITES, default=SUITES)
     options = arguments.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     if options.part == "build":
-        build(options.folder)
+        build_traced(options.folder)
+        build_changed(options.folder)
+    elif options.part == "trace":
+        trace(options.folder, options.jobs, options.suites)
     elif options.part == "judge":
         judge(options.folder, options.jobs, options.suites)
     else:
