@@ -41,8 +41,9 @@ __attribute__((destructor)) static void write_notes(void) {
 }
 """
 ISPC_PART = """
-#ifdef ISPC
-extern "C" uniform unsigned int8 pbmpm_noted[%(size)d];
+#if defined(ISPC) && !defined(PBMPM_TRIED_ONCE)
+#define PBMPM_TRIED_ONCE
+extern uniform unsigned int8 pbmpm_noted[%(size)d];
 %(overloads)s
 #endif
 """
