@@ -117,6 +117,11 @@ def test_output_paths_are_tried_before_any_work(root: Path, tmp_path: Path, word
     assert ".part" not in heard
 
 
+def test_a_command_that_fails_leaves_no_empty_folder(tmp_path: Path) -> None:
+    assert "did you mean" not in said("run", tmp_path / "qqqq.json", "--output", tmp_path / "qqqr.json" / "inner")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_video_is_named_as_what_it_is(root: Path, tmp_path: Path) -> None:
     assert "run.mp4: its name has to end in .gif" in said("run", root / "samples" / "scenes" / "column_2d.json", "--video", tmp_path / "run.mp4")
 

@@ -19,7 +19,7 @@ def not_one_of(word: object, words: Iterable[str]) -> str:
 def file_like(path: Path) -> str:
     """A question about a file that is not there: one of a like name beside it, or among the scenes of a checkout."""
     folders = (str(path.parent), "samples/scenes")
-    near = [Path(name) for folder in folders for name in sorted(glob.glob(f"{glob.escape(folder)}/*{path.suffix or '.json'}"))]
+    near = [Path(name) for folder in folders for name in sorted(glob.glob(f"{glob.escape(folder)}/*{path.suffix or '.json'}")) if Path(name).is_file()]
     alike = difflib.get_close_matches(path.stem.lower(), [other.stem.lower() for other in near], 1)
     meant = [other for other in near if alike and other.stem.lower() == alike[0]]
     return f"; did you mean '{meant[0]}'?" if meant else ""

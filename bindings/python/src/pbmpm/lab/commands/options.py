@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 import re
@@ -57,16 +58,27 @@ def emit_json(data: dict[str, Any], target: str | None) -> None:
 
 
 def ready_folder(folder: Path) -> None:
-    """Makes a folder that is missing; InputError where files cannot be written to it."""
+    """Makes a folder that is missing; InputError where files cannot be written to it. If the command leaves it empty, it goes again."""
     in_the_way = next((part for part in (folder, *folder.parents) if part.exists() and not part.is_dir()), None)
     if in_the_way is not None:
         raise InputError(f"{in_the_way}: is a file, not a folder")
+    missing = [part for part in (folder, *folder.parents) if not part.exists()]
+    context = click.get_current_context(silent=True)
+    if context is not None and missing:
+        context.find_root().call_on_close(lambda: remove_empty(missing))
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"{folder}: cannot be made: {error.strerror}") from None
     if not os.access(folder, os.W_OK):
         raise InputError(f"{folder}: cannot be written to")
+
+
+def remove_empty(folders: Sequence[Path]) -> None:
+    """Takes away what no file was written to; inner folders come first."""
+    with contextlib.suppress(OSError):
+        for folder in folders:
+            folder.rmdir()
 
 
 def ready_file(path: Path) -> None:
