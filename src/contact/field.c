@@ -101,7 +101,8 @@ static void axes_along(int dimension, const double normal[3], double along[2][3]
 static bool leave_edge(const Near *near, const Obstacle *o, double place[3], double normal[3])
 {
     static const double GOES_ON = 0.9; /* cosine: at an edge of a right angle it is 0.7, on a ball whose radius is three steps 0.94 */
-    const double step = 1.5 * field_solid(near, o)->grid->spacing / near->cell_size; /* past the grid's cell at the edge, from anywhere in it */
+    static const double PAST_CELL = 1.5; /* grid steps: from anywhere in the grid's cell at the edge a place beyond it */
+    const double step = PAST_CELL * field_solid(near, o)->grid->spacing / near->cell_size;
     double along[2][3];
     axes_along(near->dimension, normal, along);
     for (int k = 0; k + 1 < near->dimension; k++) {
@@ -520,12 +521,11 @@ static bool is_beyond_edge(const Near *near, const Face *all, int count, const F
  * faces, none of which a point in the open is behind by more than edges are rounded. */
 static int add_seen_of_baked(const Near *near, const Face *nearest, const double point[3], double reach, Face face[FIELD_FACES], int count)
 {
-    static const double AROUND = 2.5; /* [cells] as far as parents of nodes at walls lie, see walls_find.c; baked_faces() looks at places so far off */
     const bool open = is_open_before(near, nearest->foot, &nearest, 1);
     const bool rounded = near->count > 1 && is_at_edge(near, nearest->obstacle, nearest->foot);
     if (open && !rounded) return add_baked(near, nearest, point, reach, face, count);
     Face all[CANDIDATES];
-    const int candidates = baked_faces(near, nearest->obstacle, point, fmin(reach, AROUND), all, CANDIDATES);
+    const int candidates = baked_faces(near, nearest->obstacle, point, fmin(reach, PARENTS_REACH), all, CANDIDATES);
     if (open && !is_edge_hidden(near, nearest, all, candidates)) return add_baked(near, nearest, point, reach, face, count);
     for (int i = 0; i < candidates; i++)
         if (all[i].distance >= -rounding_of(near, nearest->obstacle) && bounds_space(near, &all[i]) && !is_beyond_edge(near, all, candidates, &all[i]))

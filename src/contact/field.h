@@ -13,6 +13,9 @@
 
 enum { FIELD_FACES = 3 };
 
+/* [cells] Parents of a node in a hollow lie so far off. */
+static const double PARENTS_REACH = 2.5;
+
 /* A plane that bounds the open space. Lengths in cells. */
 typedef struct Face {
     double normal[3];  /* into the open */

@@ -687,13 +687,12 @@ static bool stays_wet(const ContactFrame *frame, const Bound *bound)
 
 static void bind_node(const ContactFrame *frame, const Near *near, Bound *bound, int node)
 {
-    static const double REACH = 2.5; /* [cells]: parents of a node in a hollow lie so far off */
     Near some;
     const Near *meeting = field_meeting(near, contacts_node_groups(frame, bound->node), &some);
     WetSite site = site_of(frame, bound);
     site.near = meeting;
     contacts_node_position(frame, bound->block, node, site.point);
-    bound->faces = wet_faces(&site, REACH, bound->face, &bound->thin, &bound->both);
+    bound->faces = wet_faces(&site, PARENTS_REACH, bound->face, &bound->thin, &bound->both);
     if (bound->faces > 0 && bound->face[0].distance >= 1.0) bound->faces = 0;
     if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(meeting, site.point, NODE_REACH, bound->face, bound->faces, bound->thin);
 }
