@@ -29,9 +29,13 @@ The last table lists again those that no theory gives: their comment says "by tr
 This page is written by `python3 tests/mutants/constants.py`; `sh tests/mutants.sh --constants --folder build/constants` tries the numbers, for hours.
 """
 PLATEAUS = Path(__file__).with_name("plateaus.json")
-BY_TRIAL = """No theory gives these. Each is halved and doubled. The table tells how many field tests that loses and wins, at 60 Hz x 5.
-It tells the same of hard cases, in 2D, with paper, dual and primal. A change of rounding alone (SSE4 for AVX2) swaps some six field tests. What swaps no more lies on a plateau.
-`tests/mutants/plateau.py` fills the table, for hours, and plateaus.json beside it names the checks. A dash means that nobody has tried yet."""
+AS_IT_IS, ROUNDED = "as it is", "other rounding"
+FACTORS = {"halved": 0.5, "doubled": 2.0}
+SUITES = ("field", "hard")
+BY_TRIAL = """No theory gives these. Each is halved and doubled. `acts in` tells in how many scenes that can change anything at all: field tests at 60 Hz x 5, and
+hard cases in 2D with paper, dual and primal. The other columns count checks of both that a change loses and wins. The first row below tells what another rounding alone does (AVX2 for SSE4).
+What loses no more than that lies on a plateau, where half and double do as well. `tests/mutants/plateau.py` fills the table, for hours, and plateaus.json beside it names the checks. A dash
+means that nobody has tried yet."""
 WORDS = 22
 """Of what a line says about a constant."""
 
@@ -65,18 +69,37 @@ def sentence(about: str) -> str:
 
 
 def studied(tried_out: list[Constant]) -> list[str]:
-    """The table of what plateau.py found."""
+    """The table of what plateau.py found, and what is not on a plateau."""
     kept = json.loads(PLATEAUS.read_text(encoding="utf-8")) if PLATEAUS.is_file() else {}
-    base = kept.get("", {}).get("as it is")
-    lines = ["| Name | Value | Halved: field tests | hard cases | Doubled: field tests | hard cases |", "|---|---|---|---|---|---|"]
+    base, rounded = (kept.get("", {}).get(change, {}) for change in (AS_IT_IS, ROUNDED))
+    lines = ["| Name | Value | Acts in: field | hard | Halved: field | hard | Doubled: field | hard |", "|---|---|---|---|---|---|---|---|"]
     if base:
-        counts = [f"{base[suite]['passed']} of {base[suite]['of']}" if suite in base else "-" for suite in ("field", "hard")]
-        lines.append(f"| all as they are | | {' | '.join(counts)} | | |")
+        passed = [f"{base[suite]['passed']} of {base[suite]['of']}" if suite in base else "-" for suite in SUITES]
+        lines.append(f"| as they are: scenes, checks that hold | | {' | '.join([*scenes(kept, ''), *passed])} | | |")
+        lines.append(f"| another rounding | | | | {' | '.join(swapped(rounded.get(suite)) for suite in SUITES)} | | |")
+    steep = []
     for constant in tried_out:
         own = kept.get(constant.key, {})
-        cells = [swapped(own.get(change, {}).get(suite)) for change in ("halved", "doubled") for suite in ("field", "hard")]
-        lines.append(f"| `{constant.name}` ({Path(constant.file).name}) | `{constant.value}` | {' | '.join(cells)} |")
+        cells = [swapped(own.get(change, {}).get(suite)) for change in FACTORS for suite in SUITES]
+        lines.append(f"| `{constant.name}` ({Path(constant.file).name}) | `{constant.value}` | {' | '.join([*scenes(kept, constant.key), *cells])} |")
+        sides = [change for change in FACTORS if any(is_steep(own.get(change, {}).get(suite), rounded.get(suite)) for suite in SUITES)]
+        if sides:
+            steep.append(f"`{constant.name}` ({' and '.join(sides)})")
+    if rounded:
+        lines += ["", f"Not on a plateau, on the side in brackets: {', '.join(steep) or 'none'}. There the law is wrong, or it is missing."]
     return lines
+
+
+def scenes(kept: dict, key: str) -> list[str]:
+    """In how many scenes a constant acts, by suite: where half or where double of it can change anything."""
+    own = kept.get(key, {}).values()
+    counts = [[change[suite]["scenes"] for change in own if suite in change] for suite in SUITES]
+    return [str(max(found)) if found else "-" for found in counts]
+
+
+def is_steep(found: dict[str, list[str]] | None, rounded: dict[str, list[str]] | None) -> bool:
+    """Whether a change loses more than another rounding does."""
+    return found is not None and len(found["lost"]) > len(rounded["lost"] if rounded else [])
 
 
 def swapped(found: dict[str, list[str]] | None) -> str:

@@ -23,16 +23,11 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from constants import by_trial
+from constants import AS_IT_IS, FACTORS, PLATEAUS, ROUNDED, SUITES, by_trial
 from faults import constants
 from traced import Traced, noted
 
 ROOT = Path(__file__).resolve().parents[2]
-KEPT = Path(__file__).with_name("plateaus.json")
-FACTORS = {"halved": 0.5, "doubled": 2.0}
-AS_IT_IS = "as it is"
-ROUNDED = "other rounding"
-SUITES = ("field", "hard")
 LONGEST = 1800  # [s] of one suite with one library
 HARD_CASES = ("-m", "pbmpm", "stability", "--quick", "--solvers", "paper,dual,primal", "--dims", "2", "--processes", "1", "--json")
 Rows = dict[str, dict[str, object]]
@@ -196,7 +191,7 @@ def keep(folder: Path) -> None:
                 "lost": sorted(name for name, row in base.items() if row["passed"] and not result[name]["passed"]),
                 "won": sorted(name for name, row in base.items() if not row["passed"] and result[name]["passed"]),
             }
-    KEPT.write_text(json.dumps(kept, indent=0) + "\n", encoding="utf-8")
+    PLATEAUS.write_text(json.dumps(kept, indent=0) + "\n", encoding="utf-8")
 
 
 def main() -> int:
