@@ -161,7 +161,7 @@ class Traced:
     def build(self, make: Callable[[], str]) -> None:
         """Until all compiles; `make` gives what the compilers say, nothing if they are content."""
         while complaints := make():
-            blamed = {(Path(file).name, int(line) - 1) for file, line in re.findall(r"(\S+?):(\d+):(?:\d+:)?\s*[Ee]rror", complaints)}
+            blamed = {(Path(file).name, int(line) - 1) for file, line in re.findall(r"(\S+?):(\d+):(?:\d+:)?\s*(?:[Ee]rror|note: in expansion of macro .PBMPM_)", complaints)}
             again = [line for line in self.lines if (line.file.name, line.number) in blamed and line.way < LEFT]
             if not again:
                 raise SystemExit(f"the traced library does not build:\n{complaints[-4000:]}")
