@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a surface costs beside a step, at 200,000 liquid particles in 3D and 60 Hz x 5; and what that of a sleeping pool costs.
 
-    PBMPM_LIBRARY=build/rel/lib/libpbmpm.so build/venv/bin/python tests/cost/surface.py [SCENE...] [--rounds 11]
+    PBMPM_LIBRARY=build/release/lib/libpbmpm.so build/venv/bin/python tests/cost/surface.py [SCENE...] [--rounds 11]
 
 Steps and surfaces take turns in one process, on one thread. Printed per scene: the triangles, the median CPU time of a step, and that of each kind of
 surface as a share of it. Compare release builds. Nothing passes or fails here: a machine's noise must not."""
