@@ -32,12 +32,18 @@ PLATEAUS = Path(__file__).with_name("plateaus.json")
 AS_IT_IS, ROUNDED = "as it is", "other rounding"
 FACTORS = {"halved": 0.5, "doubled": 2.0}
 SUITES = ("field", "hard")
+ADVICE = "advice"
+"""The suite of constants that act on advice alone."""
 BY_TRIAL = """No theory gives these. Each is halved and doubled. `acts in` tells in how many scenes that can change anything at all: field tests at 60 Hz x 5, and
 hard cases in 2D with paper, dual and primal. The other columns count checks of both that a change loses and wins. The first row below tells what another rounding alone does (AVX2 for SSE4).
 What loses no more than that lies on a plateau, where half and double do as well. `tests/mutants/plateau.py` fills the table, for hours, and plateaus.json beside it names the checks. A dash
 means that nobody has tried yet."""
 WORDS = 22
 """Of what a line says about a constant."""
+
+
+ABOUT_ADVICE = """Some change advice alone. Of these the table counts checks of the field tests of which advice is right no more, or becomes right (`tests/advice_hits.py`):
+it should warn where a check misses, and nowhere else."""
 
 
 def known_verdicts() -> dict[str, dict[str, str]]:
@@ -82,18 +88,25 @@ def studied(tried_out: list[Constant]) -> list[str]:
         own = kept.get(constant.key, {})
         cells = [swapped(own.get(change, {}).get(suite)) for change in FACTORS for suite in SUITES]
         lines.append(f"| `{constant.name}` ({Path(constant.file).name}) | `{constant.value}` | {' | '.join([*scenes(kept, constant.key), *cells])} |")
-        sides = [change for change in FACTORS if any(is_steep(own.get(change, {}).get(suite), rounded.get(suite)) for suite in SUITES)]
+        sides = [change for change in FACTORS if any(is_steep(own.get(change, {}).get(suite), rounded.get(suite)) for suite in (*SUITES, ADVICE))]
         if sides:
             steep.append(f"`{constant.name}` ({' and '.join(sides)})")
+    told = [constant for constant in tried_out if any(ADVICE in found for found in kept.get(constant.key, {}).values())]
+    if told:
+        lines += ["", ABOUT_ADVICE, "", "| Name | Value | Acts in | Halved | Doubled |", "|---|---|---|---|---|"]
+        for constant in told:
+            own = kept[constant.key]
+            cells = [swapped(own.get(change, {}).get(ADVICE)) for change in FACTORS]
+            lines.append(f"| `{constant.name}` ({Path(constant.file).name}) | `{constant.value}` | {scenes(kept, constant.key, (ADVICE,))[0]} | {' | '.join(cells)} |")
     if rounded:
         lines += ["", f"Not on a plateau, on the side in brackets: {', '.join(steep) or 'none'}. There the law is wrong, or it is missing."]
     return lines
 
 
-def scenes(kept: dict, key: str) -> list[str]:
+def scenes(kept: dict, key: str, suites: tuple[str, ...] = SUITES) -> list[str]:
     """In how many scenes a constant acts, by suite: where half or where double of it can change anything."""
     own = kept.get(key, {}).values()
-    counts = [[change[suite]["scenes"] for change in own if suite in change] for suite in SUITES]
+    counts = [[change[suite]["scenes"] for change in own if suite in change] for suite in suites]
     return [str(max(found)) if found else "-" for found in counts]
 
 

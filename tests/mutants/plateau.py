@@ -23,7 +23,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from constants import AS_IT_IS, FACTORS, PLATEAUS, ROUNDED, SUITES, by_trial
+from constants import ADVICE, AS_IT_IS, FACTORS, PLATEAUS, ROUNDED, SUITES, by_trial
 from faults import constants
 from traced import Traced, noted
 
@@ -80,8 +80,10 @@ def save(built: Path, folder: Path, name: object) -> str:
     return file
 
 
-def scenes(suite: str) -> list[str]:
+def scenes(folder: Path, suite: str) -> list[str]:
     """What can be run by itself."""
+    if suite == ADVICE:
+        return [str(it["scene"]) for it in traces(folder, "field")]
     if suite == "field":
         sys.path.insert(0, str(ROOT / "tests/field"))
         from run import chosen
@@ -94,8 +96,12 @@ def scenes(suite: str) -> list[str]:
 
 def rows_of(library: Path, suite: str, names: list[str], rows_file: Path, **environment: str) -> Rows:
     """What a suite says of one library."""
-    command = [str(ROOT / "tests/field/run.py"), *names, "--settings", "60x5", "--json"] if suite == "field" else [*HARD_CASES[:3], *names, *HARD_CASES[3:]]
-    rows_file.write_text("[]" if suite == "field" else '{"rows": []}', encoding="utf-8")  # what is left of a library that crashes or never ends
+    command = {
+        "field": [str(ROOT / "tests/field/run.py"), *names, "--settings", "60x5", "--json"],
+        "hard": [*HARD_CASES[:3], *names, *HARD_CASES[3:]],
+        ADVICE: [str(ROOT / "tests/advice_hits.py"), str(ROOT / "tests/field"), *names, "--settings", "60x5", "--json"],
+    }[suite]
+    rows_file.write_text('{"rows": []}' if suite == "hard" else "[]", encoding="utf-8")  # what is left of a library that crashes or never ends
     known = os.environ | {"PBMPM_LIBRARY": str(library.resolve()), "PBMPM_ISA": "sse4"} | environment
     try:
         subprocess.run([sys.executable, *command, str(rows_file)], env=known, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, timeout=LONGEST)
@@ -103,7 +109,12 @@ def rows_of(library: Path, suite: str, names: list[str], rows_file: Path, **envi
         print(f"{library.name} did not end in {LONGEST} s", flush=True)
     rows = json.loads(rows_file.read_text(encoding="utf-8"))
     rows_file.unlink()
-    return {name_of(row): {"passed": bool(row["passed"]), "figure": row.get("value"), "seconds": row.get("cpu_s", 0.0)} for row in (rows if suite == "field" else rows["rows"])}
+    return {name_of(row): {"passed": is_right(row), "figure": row.get("value"), "seconds": row.get("cpu_s", 0.0)} for row in (rows["rows"] if suite == "hard" else rows)}
+
+
+def is_right(row: dict[str, object]) -> bool:
+    """That a check holds; or of advice, that it warned of one that does not, and of no other."""
+    return bool(row["warned"]) != bool(row["passed"]) if "warned" in row else bool(row["passed"])
 
 
 def name_of(row: dict[str, object]) -> str:
@@ -133,7 +144,7 @@ def trace(folder: Path, jobs: int, suites: list[str]) -> None:
                 out.write(json.dumps({"scene": scene, "rows": plain, "acts": {key: it for key, it in acts.items() if any(it)}}) + "\n")
 
         with ThreadPoolExecutor(jobs) as pool:
-            list(pool.map(look, [scene for scene in scenes(suite) if scene not in done]))
+            list(pool.map(look, [scene for scene in scenes(folder, suite) if scene not in done]))
 
 
 def traces(folder: Path, suite: str) -> list[dict[str, object]]:
@@ -156,10 +167,14 @@ def judge(folder: Path, jobs: int, suites: list[str]) -> None:
     """Suite by suite, so that a study that is stopped tells the same of all; what takes least comes first."""
     index = [it for it in json.loads((folder / "index.json").read_text(encoding="utf-8")) if it["change"] != AS_IT_IS]
     for suite in suites:
-        todo = [it for it in index if not result_of(folder, it, suite).is_file()]
+        todo = [it for it in index if (suite != ADVICE or is_of_advice(it)) and not result_of(folder, it, suite).is_file()]
         todo.sort(key=lambda it: len(acts_in(folder, it, suite)))
         with ThreadPoolExecutor(jobs) as pool:
             list(pool.map(lambda it: look_at(folder, it, suite), todo))
+
+
+def is_of_advice(entry: dict[str, str]) -> bool:
+    return "/advi" in entry["key"]
 
 
 def result_of(folder: Path, entry: dict[str, str], suite: str) -> Path:
@@ -180,7 +195,7 @@ def keep(folder: Path) -> None:
     """Counts of what passed, and what changed sides against the library as it is, of what was judged so far."""
     index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
     kept: dict[str, dict[str, dict[str, object]]] = {}
-    for suite in SUITES:
+    for suite in (*SUITES, ADVICE):
         base: Rows = {name: row for it in traces(folder, suite) for name, row in it["rows"].items()}
         for entry in index:
             file = result_of(folder, entry, suite)
@@ -206,7 +221,7 @@ def main() -> int:
     arguments.add_argument("part", choices=("build", "trace", "judge", "keep"))
     arguments.add_argument("--folder", type=Path, default=ROOT / "build/plateau")
     arguments.add_argument("--jobs", type=int, default=2)
-    arguments.add_argument("--suites", nargs="+", choices=SUITES, default=SUITES)
+    arguments.add_argument("--suites", nargs="+", choices=(*SUITES, ADVICE), default=(*SUITES, ADVICE))
     options = arguments.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     if options.part == "build":
