@@ -34,6 +34,7 @@ VALID: dict[str, Any] = {
 
 
 PLANE: dict[str, Any] = {"kind": "plane", "position": [0, 0], "normal": [0, 1]}
+BALL: dict[str, Any] = {"kind": "sphere", "position": [0.5, 0.5], "radius": 0.1}
 EMITTER: dict[str, Any] = {
     "shape": {"kind": "sphere", "position": [0.5, 0.8], "radius": 0.1},
     "material": "water",
@@ -89,6 +90,8 @@ def test_defaults() -> None:
             "colliders[0].shape.normal",
             "zero",
         ),
+        ("colliders", [{"shape": BALL, "body": {"mass": 1, "slides": [1, 0, 0]}}], "colliders[0].body.slides", "needs 2 numbers"),
+        ("colliders", [{"shape": BALL, "body": {"mass": 1, "moves": False, "pivot": [0, 0, 0]}}], "colliders[0].body.pivot", "needs 2 numbers"),
         ("fills", [], "fills", "a fill or an emitter"),
         ("emitters", [EMITTER | {"rate": -1}], "emitters[0].rate", "greater than or equal to 0"),
         ("emitters", [EMITTER | {"material": "oil"}], "emitters[0].material", "'oil'"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..._fixed import nearest
-from .scene import VECTORS, CameraPart, KeyframePart, Part, Scene, material_groups
+from .scene import CameraPart, KeyframePart, Part, Scene, material_groups
 
 #: Bits of the groups of a material.
 MATERIALS_THAT_CAN_BE_MET = 32
@@ -72,7 +72,7 @@ def _vector_problems(part: Part, dimension: int, path: str):
         elif isinstance(value, list) and value and isinstance(value[0], Part):
             for index, item in enumerate(value):
                 yield from _vector_problems(item, dimension, f"{where}[{index}]")
-        elif name in VECTORS and value is not None and len(value) != dimension:
+        elif name in type(part).vectors() and value is not None and len(value) != dimension:
             yield f"{where}: needs {dimension} numbers in a scene of dimension {dimension}, has {len(value)}"
 
 

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from ..errors import InputError
 from ..._fixed import nearest
 from ..hints import file_like
-from .scene import VECTORS, Part
+from .scene import Part
 
 
 def read_json(path: Path) -> Any:
@@ -57,7 +57,7 @@ def describe_problems(error: ValidationError, data: Any, source: str) -> str:
             message += nearest(item["ctx"]["tag"], re.findall(r"'(\w+)'", item["ctx"]["expected_tags"]))
         elif item["type"] == "union_tag_not_found":
             message = f"the field {item['ctx']['discriminator']} is missing: it says what this is"
-        elif item["type"] in ("list_type", "too_short", "too_long") and item["loc"][-1] in VECTORS:
+        elif item["type"] in ("list_type", "too_short", "too_long") and any(item["loc"][-1] in kind.vectors() for kind in Part.kinds()):
             message = f"needs {data.get('dimension', '2 or 3')} numbers in brackets, one per axis"
         elif item["type"] == "missing":
             message = "this field is required"
@@ -77,10 +77,8 @@ def _meant(name: int | str) -> str:
 
 def _all_fields() -> dict[str, str]:
     """The names of the fields of all parts of a scene, and what they belong to."""
-    parts, names = [Part], dict[str, str]()
-    while parts:
-        part = parts.pop()
-        parts += part.__subclasses__()
+    names = dict[str, str]()
+    for part in Part.kinds():
         for name in part.model_fields:
             names.setdefault(name, f"the scene's {part.__name__.strip('_').removesuffix('Part').lower()}" if part.__name__ != "Scene" else "the scene itself")
     return names

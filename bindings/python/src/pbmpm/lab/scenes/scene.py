@@ -9,7 +9,9 @@ scene's ``dimension``. Unknown fields are refused.
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal, cast
+from collections.abc import Iterator
+from functools import cache
+from typing import Annotated, Any, Literal, cast, get_args, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
 
@@ -31,8 +33,6 @@ Iterations = Annotated[int, Field(ge=1, le=1000)]
 Milliseconds = Annotated[float, Field(ge=0, le=1e6)]
 Vector = Annotated[list[Finite], Field(min_length=2, max_length=3)]
 PositiveVector = Annotated[list[Positive], Field(min_length=2, max_length=3)]
-VECTORS = {"origin", "gravity", "min", "max", "position", "half_extents", "normal", "velocity", "direction"}
-"""Fields with a number per axis."""
 Rotation = Finite | Annotated[list[Finite], Field(min_length=4, max_length=4)]
 
 
@@ -40,6 +40,20 @@ class Part(BaseModel):
     """Base of all parts of a scene: unknown fields and wrong types are errors."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    @classmethod
+    @cache
+    def vectors(cls) -> frozenset[str]:
+        """The fields with a number per axis: those of the type Vector or PositiveVector."""
+        hints = get_type_hints(cls, include_extras=True)
+        return frozenset(name for name in cls.model_fields if any(kind in (hints[name], *get_args(hints[name])) for kind in (Vector, PositiveVector)))
+
+    @classmethod
+    def kinds(cls) -> Iterator[type[Part]]:
+        """This one, and all that derive from it."""
+        yield cls
+        for kind in cls.__subclasses__():
+            yield from kind.kinds()
 
 
 _LIQUID, _ELASTIC, _SAND, _VISCO = Liquid(), Elastic(), Sand(), Visco()  # the library's defaults
