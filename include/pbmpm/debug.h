@@ -8,13 +8,13 @@
 extern "C" {
 #endif
 
-/** What lines can show; sums of these choose. */
+/** What lines can show. Add values to choose several. */
 typedef enum pbmpm_debug_part {
-    PBMPM_DEBUG_DOMAIN = 1,      /**< the walls that are closed; no end is drawn where one is open */
+    PBMPM_DEBUG_DOMAIN = 1,      /**< the outlines of the closed walls; open ones are not drawn */
     PBMPM_DEBUG_COLLIDERS = 2,   /**< where they stand now */
     PBMPM_DEBUG_EMITTERS = 4,    /**< where they stand now, those that are switched off too */
-    PBMPM_DEBUG_DRAINS = 8,      /**< the same */
-    PBMPM_DEBUG_FORCES = 16,     /**< those that are switched on */
+    PBMPM_DEBUG_DRAINS = 8,      /**< where they stand now, those that are switched off too */
+    PBMPM_DEBUG_FORCES = 16,     /**< where those stand that are switched on */
     PBMPM_DEBUG_KILL_BOUNDS = 32, /**< if they are enabled */
     PBMPM_DEBUG_BLOCKS = 64,     /**< blocks of the grid that held particles in the last substep */
     PBMPM_DEBUG_ASLEEP = 128,    /**< blocks that sleep */
@@ -29,10 +29,11 @@ typedef struct pbmpm_line {
     pbmpm_debug_part part; /**< what it shows: one of the parts, to choose a colour by */
 } pbmpm_line;
 
-/** Lines that show obstacles, regions and the grid. Balls and capsules are drawn as circles of 24 lines, planes as a square of 20 cells (2D: a line)
- *  around their position, baked solids by contours of their surface. `parts`: a sum of pbmpm_debug_part. *count is how many lines there are; the
- *  first `capacity` of them are written to `lines`, which may be null with a capacity of 0. Costs what it draws, and only when called.
- *  Errors: INVALID_ID, INVALID_ARGUMENT (null, unknown parts), BUSY. */
+/** Lines that show obstacles, regions and the grid. Balls and capsules are drawn as circles of 24 lines, planes as a square of 20
+ *  cells (2D: a line) around their position, baked solids by contours of their surface. `parts`: a sum of pbmpm_debug_part. *count
+ *  is how many lines there are; the first `capacity` of them are written to `lines`, which may be null with a capacity of 0. Costs
+ *  what it draws, and only when called.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (null, unknown parts), BUSY, FORKED. Threads: shared. */
 PBMPM_API pbmpm_result pbmpm_world_debug_lines(pbmpm_world_id world, uint32_t parts, pbmpm_line *lines, uint32_t capacity, uint32_t *count);
 
 #ifdef __cplusplus

@@ -1,8 +1,9 @@
-/* pbmpm for C++17: all of pbmpm.h, with worlds that destroy themselves, results that carry a value, and spans. Header only. It throws nothing, needs no
- * RTTI and takes no memory.
+/* pbmpm for C++17: all of pbmpm.h, with worlds that destroy themselves, results that carry a value, and spans. Header only.
+ * It throws nothing, needs no RTTI and takes no memory.
  *
- * Names follow C's. A call on a world, pbmpm_collider_move(world, ...), is world.collider_move(...); pbmpm_world_step(world, dt) is world.step(dt).
- * Other calls are functions of the namespace: pbmpm_bake_mesh() is pbmpm::bake_mesh(). What a call does, its errors and its threads stand at C's function.
+ * Names follow C's. A call on a world, pbmpm_collider_move(world, ...), is world.collider_move(...); pbmpm_world_step(world, dt)
+ * is world.step(dt). Other calls are functions of the namespace: pbmpm_bake_mesh() is pbmpm::bake_mesh(). What a call does, its
+ * errors and its threads stand at C's function.
  * Enumerations, structures and identifiers are C's. Each kind of identifier is a type of its own, so none is taken for another.
  *
  *     pbmpm::world_def tank; // has its defaults
@@ -51,7 +52,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/** The bytes of elements, for calls that write or read records. */
+/** Elements as bytes, for particles_copy(), snapshots and baked solids. */
 template <class Container> auto as_writable_bytes(Container &container) noexcept
 {
     using element = std::remove_pointer_t<decltype(std::data(container))>;
@@ -69,10 +70,10 @@ template <class Container> auto as_bytes(const Container &container) noexcept
 struct failure {
     pbmpm_result code;
     const char *message;      /**< valid until the next call that fails on this thread; never null */
-    std::uint64_t needed = 0; /**< with CAPACITY: particles of a fill or a copy, points, bytes of a snapshot or a baked solid; else 0 */
+    std::uint64_t needed = 0; /**< with CAPACITY: how many particles, points or bytes are needed; else 0 */
 
     const char *name() const noexcept { return pbmpm_result_name(code); }
-    /** For programs that cannot go on: it goes to standard error, and abort() ends the program. */
+    /** Writes name and message to standard error, and calls abort(). For programs that cannot go on. */
     [[noreturn]] void end() const noexcept
     {
         std::fprintf(stderr, "%s: %s\n", name(), message);
@@ -96,7 +97,7 @@ public:
     /** With a value its code is PBMPM_OK. */
     const failure &error() const noexcept { return failure_; }
     T value_or(T other) && noexcept { return value_ ? *std::move(value_) : std::move(other); }
-    /** For programs that cannot go on without it, see failure::end(). */
+    /** The value. Without one it writes the failure to standard error and calls abort(), see failure::end(). */
     T &value() & noexcept
     {
         if (!value_) failure_.end();
@@ -118,7 +119,7 @@ public:
     bool has_value() const noexcept { return failure_.code == PBMPM_OK; }
     explicit operator bool() const noexcept { return has_value(); }
     const failure &error() const noexcept { return failure_; }
-    /** For programs that cannot go on, see failure::end(). */
+    /** Without success it writes the failure to standard error and calls abort(), see failure::end(). */
     void value() const noexcept
     {
         if (!has_value()) failure_.end();
