@@ -53,7 +53,7 @@ void multilevel_free(Multilevel *m, Memory *memory);
 /* What follows adds its loops to others.
  *
  * The diagonals, from m (`width` floats per node of the grid) and k (one float per node). `overlap`: the number of levels that correct the same smooth
- * motion. */
+ * motion; it acts on the stiffness alone. */
 void multilevel_weigh(const Multilevel *m, Loops *loops, const float *mass, const float *stiffness, double overlap);
 
 /* z += sum_l P_l (1 / D_l) P_l^T r; both have `width` floats per node of the grid. */

@@ -39,7 +39,7 @@ static const double CALM_SPEED = 0.01; /* [m/s] a fifth of a cell of 5 cm per se
 
 /* What is missing from the pressure of a step stirs a pool. With f = g dt^2 depth / dx^2 its rms speed is about RESTS f cells per substep, or 0.0013 g dt per cell of depth:
  * pools of 6 to 48 cells of 1.25 to 10 cm behind upright walls off the grid have 0.0009 to 0.0025 of f, at 60 and 120 Hz, in 2D and 3D, with 2 to 20 iterations. Where gravity is
- * oblique to the grid, by 10, 20 and 45 degrees, it is 0.0026 to 0.0098 of f (tests/field/run.py still_pool deep_pool --settings 60x5). Around steps, shelves, ridges and balls it is 0.0006
+ * oblique to the grid, by 10, 20 and 45 degrees, it is 0.0018 to 0.019 of f (tests/field/run.py still_pool deep_pool --settings 60x5). Around steps, shelves, ridges and balls it is 0.0006
  * to 0.0014 in ten of sixteen pools and up to 0.018, which nobody foretells; advise_pool_moves() tells it.
  * On floors that lean or curve it is 0.006 to 0.033 of f in eight of ten pools, 0.016 in the median (145 pools of 4 to 16 cells in valleys of 5 to 30 degrees and on waves of terrain, six
  * seconds after they were filled; tests/field/run.py lake). With two substeps it is a tenth to a third.

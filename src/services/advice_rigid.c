@@ -228,7 +228,6 @@ void advise_rigid_glides(Adviser *adviser)
     }
 }
 
-/* [kg/m^3] of the densest liquid of the world; 0: it has none. */
 /* The grid shows no liquid in a narrow gap, and what stands above presses the body down. In a room that fills, crates of 400 kg/m^3 that start less than two cells above the
  * floor stay on it. */
 void advise_rigid_stays_down(Adviser *adviser)
