@@ -35,7 +35,8 @@ SUITES = ("field", "hard")
 ADVICE = "advice"
 """The suite of constants that act on advice alone."""
 BY_TRIAL = """No theory gives these. Each is halved and doubled. `acts in` tells in how many scenes that can change anything at all: field tests at 60 Hz x 5, and
-hard cases in 2D with paper, dual and primal. The other columns count checks of both that a change loses and wins. The first row below tells what another rounding alone does (AVX2 for SSE4).
+hard cases in 2D with paper, dual and primal. Scenes that take long are left out (`LONGEST_SCENE` in
+`tests/mutants/plateau.py`). The other columns count checks of both that a change loses and wins. The first row below tells what another rounding alone does (AVX2 for SSE4).
 What loses no more than that lies on a plateau, where half and double do as well. `tests/mutants/plateau.py` fills the table, for hours, and plateaus.json beside it names the checks. A dash
 means that nobody has tried yet."""
 WORDS = 22
