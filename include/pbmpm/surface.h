@@ -43,7 +43,8 @@ typedef struct pbmpm_surface_def {
  *  alignment. */
 typedef struct pbmpm_surface_mesh {
     uint32_t size;            /**< sizeof(pbmpm_surface_mesh), set by the caller */
-    uint32_t stride;          /**< bytes between vertices in the four float arrays, a multiple of 4; 0: packed */
+    uint32_t stride;          /**< bytes between vertices in the four float arrays, a multiple of 4; 0: packed. One record may
+                                   hold all four. */
     float *positions;         /**< 3 floats per vertex [m], relative to the origin */
     float *normals;           /**< 3 floats per vertex: unit vector out of the matter, smooth */
     float *velocities;        /**< 3 floats per vertex [m/s]: the mean of nearby particles */

@@ -10,8 +10,10 @@ void advise_no_gravity(Adviser *adviser)
 {
     const World *world = adviser->world;
     bool forced = false;
-    for (uint32_t i = 0; i < world->forces.used; i++)
-        forced = forced || (world->forces.slot[i].generation != 0 && world->forces.slot[i].def.kind == PBMPM_FORCE_UNIFORM);
+    for (uint32_t i = 0; i < world->forces.used; i++) {
+        const pbmpm_force_def *def = &world->forces.slot[i].def;
+        forced = forced || (world->forces.slot[i].generation != 0 && def->enabled && def->kind == PBMPM_FORCE_UNIFORM);
+    }
     if (gravity_strength(world) > 0.0 || forced) return;
     pbmpm_advice advice = {.code = PBMPM_ADVICE_NO_GRAVITY, .text = "nothing falls: gravity is 0, which is its default"};
     adviser_by_value(PBMPM_CHANGE_GRAVITY, 9.81, 0.0, &advice);

@@ -109,6 +109,23 @@ static void test_no_gravity(void)
     expect_none(world, PBMPM_ADVICE_NO_GRAVITY);
 }
 
+/* A uniform force stands for gravity while it is on. */
+static void test_no_gravity_but_a_force(void)
+{
+    const pbmpm_world_id world = block_2d(NULL, NULL);
+    const pbmpm_force_id force = create_force(world);
+    pbmpm_force_def def = {.size = sizeof def};
+    pbmpm_shape shape = {.size = sizeof shape};
+    OK(pbmpm_force_get(world, force, &def, &shape));
+    def.kind = PBMPM_FORCE_UNIFORM;
+    def.strength = 9.81f;
+    OK(pbmpm_force_set(world, force, &def, &shape));
+    expect(world, PBMPM_ADVICE_NO_GRAVITY);
+    def.enabled = 1;
+    OK(pbmpm_force_set(world, force, &def, &shape));
+    expect_none(world, PBMPM_ADVICE_NO_GRAVITY);
+}
+
 static void check_falling(int32_t dimension)
 {
     const pbmpm_world_id world = falling_world(dimension, 0.1f);
@@ -318,6 +335,7 @@ int main(void)
     RUN_TEST(test_it_writes_what_there_is_room_for_and_changes_nothing);
     RUN_TEST(test_without_memory_it_says_so);
     RUN_TEST(test_no_gravity);
+    RUN_TEST(test_no_gravity_but_a_force);
     RUN_TEST(test_matter_that_falls_for_ever);
     RUN_TEST(test_parameters_that_do_nothing);
     RUN_TEST(test_an_emitter_outside_of_the_domain);

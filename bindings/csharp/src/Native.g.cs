@@ -1918,7 +1918,8 @@ namespace Pbmpm.Native
     {
         /// <summary>sizeof(pbmpm_surface_mesh), set by the caller</summary>
         public uint Size;
-        /// <summary>bytes between vertices in the four float arrays, a multiple of 4; 0: packed</summary>
+        /// <summary>bytes between vertices in the four float arrays, a multiple of 4; 0: packed. One record may
+        /// hold all four.</summary>
         public uint Stride;
         /// <summary>3 floats per vertex [m], relative to the origin</summary>
         public float* Positions;
