@@ -28,8 +28,8 @@ extern "C" {
  *   pbmpm_world_get_step_stats()  of the step before
  *   pbmpm_world_destroy(), pbmpm_shutdown()  wait for the step; its result is lost.
  *
- * Any thread may make them. While a thread is in pbmpm_world_step_begin() or waits in pbmpm_world_step_end(), the others return
- * BUSY.
+ * Any thread may make them. While one thread is in pbmpm_world_step_begin(), or waits in pbmpm_world_step_end(), calls of other
+ * threads return BUSY. pbmpm_shutdown() must not be called then.
  *
  * Views taken before the begin have expired: their memory is what the step works on. Views taken while it runs show a copy, the
  * published state. The copy is made before anything else, by the step or by the first view that is asked for: that may take some

@@ -101,8 +101,9 @@ typedef struct pbmpm_material_def {
 typedef struct pbmpm_effective {
     uint32_t size;       /**< sizeof(pbmpm_effective), set by the caller */
     float bulk_modulus;  /**< [Pa]; 0: incompressible. Paper's solver: liquid density * relaxation * N * dx^2 / (4 d dt^2); elastic
-                              a third (2D: half) of young_modulus. Other solvers: the material's own. Primal: what it used in the
-                              last step, if the liquid is incompressible or CONVERGENT bounds it. */
+                              a third (2D: half) of young_modulus. Other solvers, elastic: lambda + 2 mu / d of the young_modulus
+                              below. Other solvers, liquid: the material's own. Primal: what it used in the last step, if the
+                              liquid is incompressible or CONVERGENT bounds it. */
     float young_modulus; /**< elastic [Pa]; 0 for a liquid. Paper's solver: density * relaxation * N * dx^2 / (4 dt^2). Primal and
                               explicit: the material's own. Dual: that, or what N iterations reach if that is less. Convergent: as
                               the solver of the island that the particles are in now; of several islands the softest. */

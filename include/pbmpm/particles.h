@@ -79,8 +79,9 @@ typedef enum pbmpm_field {
     PBMPM_PARTICLE = 6,        /**< 2 uint32: pbmpm_particle_id */
     PBMPM_MASS = 7,            /**< 1 float [kg] (2D: per metre of depth); read-only */
     PBMPM_PRESSURE = 8,        /**< 1 float [Pa] (2D: N/m): last pressure of liquid, or of sand with the dual or convergent solver;
-                                    else 0. Exists once a step needed it, or it was set. With a bulk modulus K it is J K (1 - J):
-                                    divide by J for the pressure. Neighbours differ without effect: take means. */
+                                    else 0. Exists once a step needed it, or it was set. Liquid: divide it by J for the true
+                                    pressure; with a bulk modulus K that is K (1 - J). Values of neighbours scatter, which moves
+                                    nothing: average them. */
     PBMPM_USER_VALUE = 9,      /**< 1 uint32: the host's own, which goes with the particle (a colour, an owner); default 0. Exists,
                                     and takes memory, once a value other than 0 was given, or any was set. */
     PBMPM_FIELD_FORCE32 = 0x7fffffff
@@ -109,8 +110,10 @@ typedef struct pbmpm_copy_def {
     uint32_t size;             /**< sizeof(pbmpm_copy_def), set by pbmpm_copy_def_init() */
     uint32_t stride;           /**< bytes from one particle to the next, a multiple of 4; 0 (default): offset and fields, packed */
     float alpha;               /**< time, from 0 (before the last step) to 1 (default: now). Positions are x - (1 - alpha) dt v, dt
-                                    of the last step; other fields are those of now. With one substep they err by at most 0.02
-                                    cells; by 0.045 where the grid holds liquid of 1.5 times its rest volume or more. */
+                                    of the last step; other fields are those of now. With one substep that is exact but for what
+                                    moves places alone: shifting (0.02 cells per axis), pushes of crowded matter (0.025). Further
+                                    off is what an obstacle or a wall put back. So is what has another velocity than its way:
+                                    with `flip`, with BDF2, or where the primal solver corrects velocities afterwards. */
     uint32_t field_count;      /**< number of `fields`; 0 (default): POSITION, VELOCITY, MATERIAL */
     const pbmpm_field *fields; /**< in the order in which they are written, without gaps; 4 bytes for each component */
     int32_t pads_vectors;      /**< 1: POSITION and VELOCITY take 3 floats in 2D too, the third is 0. 0 (default): d floats */

@@ -47,8 +47,8 @@ typedef enum pbmpm_restore_flags {
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Threads: shared. */
 PBMPM_API pbmpm_result pbmpm_snapshot_size(pbmpm_world_id world, uint64_t *bytes, uint32_t *bytes_per_particle);
 
-/** Writes a snapshot into the caller's memory, of any alignment. `capacity`: bytes there; *bytes (may be null): how many are
- *  needed, also on CAPACITY, and written otherwise. Takes no memory of the world and expires no views.
+/** Writes a snapshot into the caller's memory, of any alignment. `capacity`: bytes there. *bytes (may be null) becomes the size of
+ *  the snapshot, on success and on CAPACITY. Takes no memory of the world and expires no views.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), CAPACITY (less room than pbmpm_snapshot_size() says; nothing is written), BUSY,
  *  FORKED.
  *  Threads: shared. */

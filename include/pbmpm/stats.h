@@ -45,14 +45,17 @@ typedef struct pbmpm_stats {
     float lane_occupancy;         /**< share of SIMD lanes that held a particle; 1 is perfect */
     uint64_t deleted_total;       /**< particles deleted by the library since creation (never by calls) */
     uint64_t clamped_total;       /**< times a particle was slowed to max_displacement since creation */
-    pbmpm_solver solver;          /**< of the last substep; CONVERGENT: several were used. Then iterations_used, residual and
-                                       predicted_error are maxima over the islands, and energy_checks_failed is their sum */
+    pbmpm_solver solver;          /**< of the last substep; CONVERGENT: the joint solver, or several that differ. Of several groups
+                                       of islands iterations_used, residual and predicted_error are maxima; energy_checks_failed
+                                       is the sum */
     pbmpm_stop stop;              /**< what ended the iterations of the last substep */
     uint32_t iterations_used;     /**< in the last substep, with repeated passes; deep sand may exceed settings.iterations */
-    float residual;               /**< rms change of displacements in the last iteration [cells]; paper's and explicit solver: 0 */
+    float residual;               /**< [cells] Dual: rms change of the stresses in the last iteration, at least that of the
+                                       displacements that they cause. Primal: see docs/method.md, End. Paper's, explicit: 0 */
     float predicted_error;        /**< predicted rms error of the displacements [cells]; 0 if residual is 0 */
-    uint32_t energy_checks_failed; /**< primal, alone or with the dual: bodies whose unfinished solution would have gained energy in
-                                        the last substep, so it began again from their rigid motion */
+    uint32_t energy_checks_failed; /**< primal, alone or with the dual: bodies whose first solution had gained energy in the last
+                                        substep. They searched further, then paid with velocities, or began again from their rigid
+                                        motion: docs/method.md, Pieces that gain energy */
     uint32_t particles_asleep;     /**< particles that the last substep did not move because they sleep */
     uint32_t blocks_asleep;        /**< blocks that took no part in the last substep; particle_blocks counts those that did */
     uint32_t blocks_drowsy;        /**< of particle_blocks, those that took part without being moved, beside awake blocks */

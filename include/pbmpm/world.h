@@ -97,8 +97,8 @@ typedef struct pbmpm_settings {
                                  effect on viscous liquids and with the paper's solver. (ASFLIP: Fei, Guo, Wu, Huang, Gao 2021) */
     float target_error;     /**< dual and primal, also within CONVERGENT: iterations end when the predicted error of the solution
                                  [cells] is below this, in [0, 1]; 0 (default): off */
-    float time_budget_ms;   /**< as above: wall time for a step [ms], in [0, 1e6]; 0 (default): off. No iteration of substep k
-                                 begins after k equal parts of it. Results then depend on the machine's speed: not deterministic. */
+    float time_budget_ms;   /**< as above: wall time for a step [ms], in [0, 1e6]; 0 (default): off. Of n substeps, substep k begins
+                                 no iteration after k / n of it. Results then depend on the machine's speed: not deterministic. */
     int32_t sleeping;       /**< 1: blocks of matter at rest sleep and cost nothing until something wakes them, see sleep.h. 0
                                  (default): off, costs nothing */
     float sleep_speed;      /**< a block rests below this rms speed of its particles [m/s], in [0, 1e9]; default 0.05 */

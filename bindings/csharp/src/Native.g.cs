@@ -236,8 +236,9 @@ namespace Pbmpm
         /// <summary>1 float [kg] (2D: per metre of depth); read-only</summary>
         Mass = 7,
         /// <summary>1 float [Pa] (2D: N/m): last pressure of liquid, or of sand with the dual or convergent solver;
-        /// else 0. Exists once a step needed it, or it was set. With a bulk modulus K it is J K (1 - J):
-        /// divide by J for the pressure. Neighbours differ without effect: take means.</summary>
+        /// else 0. Exists once a step needed it, or it was set. Liquid: divide it by J for the true
+        /// pressure; with a bulk modulus K that is K (1 - J). Values of neighbours scatter, which moves
+        /// nothing: average them.</summary>
         Pressure = 8,
         /// <summary>1 uint32: the host's own, which goes with the particle (a colour, an owner); default 0. Exists,
         /// and takes memory, once a value other than 0 was given, or any was set.</summary>
@@ -720,8 +721,9 @@ namespace Pbmpm
         /// <summary>sizeof(pbmpm_effective), set by the caller</summary>
         public uint Size;
         /// <summary>[Pa]; 0: incompressible. Paper's solver: liquid density * relaxation * N * dx^2 / (4 d dt^2); elastic
-        /// a third (2D: half) of young_modulus. Other solvers: the material's own. Primal: what it used in the
-        /// last step, if the liquid is incompressible or CONVERGENT bounds it.</summary>
+        /// a third (2D: half) of young_modulus. Other solvers, elastic: lambda + 2 mu / d of the young_modulus
+        /// below. Other solvers, liquid: the material's own. Primal: what it used in the last step, if the
+        /// liquid is incompressible or CONVERGENT bounds it.</summary>
         public float BulkModulus;
         /// <summary>elastic [Pa]; 0 for a liquid. Paper's solver: density * relaxation * N * dx^2 / (4 dt^2). Primal and
         /// explicit: the material's own. Dual: that, or what N iterations reach if that is less. Convergent: as
@@ -880,8 +882,8 @@ namespace Pbmpm
         /// <summary>dual and primal, also within CONVERGENT: iterations end when the predicted error of the solution
         /// [cells] is below this, in [0, 1]; 0 (default): off</summary>
         public float TargetError;
-        /// <summary>as above: wall time for a step [ms], in [0, 1e6]; 0 (default): off. No iteration of substep k
-        /// begins after k equal parts of it. Results then depend on the machine's speed: not deterministic.</summary>
+        /// <summary>as above: wall time for a step [ms], in [0, 1e6]; 0 (default): off. Of n substeps, substep k begins
+        /// no iteration after k / n of it. Results then depend on the machine's speed: not deterministic.</summary>
         public float TimeBudgetMs;
         /// <summary>1: blocks of matter at rest sleep and cost nothing until something wakes them, see sleep.h. 0
         /// (default): off, costs nothing</summary>
@@ -1566,19 +1568,22 @@ namespace Pbmpm
         public ulong DeletedTotal;
         /// <summary>times a particle was slowed to max_displacement since creation</summary>
         public ulong ClampedTotal;
-        /// <summary>of the last substep; CONVERGENT: several were used. Then iterations_used, residual and
-        /// predicted_error are maxima over the islands, and energy_checks_failed is their sum</summary>
+        /// <summary>of the last substep; CONVERGENT: the joint solver, or several that differ. Of several groups
+        /// of islands iterations_used, residual and predicted_error are maxima; energy_checks_failed
+        /// is the sum</summary>
         public Solver Solver;
         /// <summary>what ended the iterations of the last substep</summary>
         public Stop Stop;
         /// <summary>in the last substep, with repeated passes; deep sand may exceed settings.iterations</summary>
         public uint IterationsUsed;
-        /// <summary>rms change of displacements in the last iteration [cells]; paper's and explicit solver: 0</summary>
+        /// <summary>[cells] Dual: rms change of the stresses in the last iteration, at least that of the
+        /// displacements that they cause. Primal: see docs/method.md, End. Paper's, explicit: 0</summary>
         public float Residual;
         /// <summary>predicted rms error of the displacements [cells]; 0 if residual is 0</summary>
         public float PredictedError;
-        /// <summary>primal, alone or with the dual: bodies whose unfinished solution would have gained energy in
-        /// the last substep, so it began again from their rigid motion</summary>
+        /// <summary>primal, alone or with the dual: bodies whose first solution had gained energy in the last
+        /// substep. They searched further, then paid with velocities, or began again from their rigid
+        /// motion: docs/method.md, Pieces that gain energy</summary>
         public uint EnergyChecksFailed;
         /// <summary>particles that the last substep did not move because they sleep</summary>
         public uint ParticlesAsleep;
@@ -1858,8 +1863,10 @@ namespace Pbmpm.Native
         /// <summary>bytes from one particle to the next, a multiple of 4; 0 (default): offset and fields, packed</summary>
         public uint Stride;
         /// <summary>time, from 0 (before the last step) to 1 (default: now). Positions are x - (1 - alpha) dt v, dt
-        /// of the last step; other fields are those of now. With one substep they err by at most 0.02
-        /// cells; by 0.045 where the grid holds liquid of 1.5 times its rest volume or more.</summary>
+        /// of the last step; other fields are those of now. With one substep that is exact but for what
+        /// moves places alone: shifting (0.02 cells per axis), pushes of crowded matter (0.025). Further
+        /// off is what an obstacle or a wall put back. So is what has another velocity than its way:
+        /// with `flip`, with BDF2, or where the primal solver corrects velocities afterwards.</summary>
         public float Alpha;
         /// <summary>number of `fields`; 0 (default): POSITION, VELOCITY, MATERIAL</summary>
         public uint FieldCount;
@@ -2734,8 +2741,8 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_snapshot_size(WorldId world, ulong* bytes, uint* bytesPerParticle);
 
-        /// <summary>Writes a snapshot into the caller's memory, of any alignment. `capacity`: bytes there; *bytes (may be null): how many are
-        /// needed, also on CAPACITY, and written otherwise. Takes no memory of the world and expires no views.
+        /// <summary>Writes a snapshot into the caller's memory, of any alignment. `capacity`: bytes there. *bytes (may be null) becomes the size of
+        /// the snapshot, on success and on CAPACITY. Takes no memory of the world and expires no views.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null), CAPACITY (less room than pbmpm_snapshot_size() says; nothing is written), BUSY,
         /// FORKED.
         /// Threads: shared.</summary>
