@@ -49,6 +49,8 @@ def main() -> int:
     parser.add_argument("--known", action="store_true", help="write known_misses.json")
     parser.add_argument("--list", action="store_true")
     options = parser.parse_args()
+    if options.known and (options.cases or options.settings != "60x5" or options.solver != "convergent"):
+        parser.error("--known writes what all cases miss at --settings 60x5 with the default solver, which is what test_field.py runs")
     variants = chosen(options.cases)
     if options.list:
         for variant in variants:
