@@ -34,17 +34,16 @@ FACTORS = {"halved": 0.5, "doubled": 2.0}
 SUITES = ("field", "hard")
 ADVICE = "advice"
 """The suite of constants that act on advice alone."""
-BY_TRIAL = """No theory gives these. Each is halved and doubled. `acts in` tells in how many scenes that can change anything at all: field tests at 60 Hz x 5, and
-hard cases in 2D with paper, dual and primal. Scenes that take long are left out (`LONGEST_SCENE` in
-`tests/mutants/plateau.py`). The other columns count checks of both that a change loses and wins. The first row below tells what another rounding alone does (AVX2 for SSE4).
-What loses no more than that lies on a plateau, where half and double do as well. `tests/mutants/plateau.py` fills the table, for hours, and plateaus.json beside it names the checks. A dash
-means that nobody has tried yet."""
+BY_TRIAL = """No theory gives these. Each is halved and doubled. "Acts in" counts the scenes in which that can change anything at all: field tests at 60 Hz x 5, and
+hard cases in 2D with paper, dual and primal. Scenes that take long are left out (`LONGEST_SCENE` in `tests/mutants/plateau.py`). The other columns count the checks that a change
+loses and wins. The second row tells what another rounding does (AVX2 for SSE4). What loses no more checks than that swaps lies on a plateau: half and double do as well.
+`tests/mutants/plateau.py` fills the table, for hours, and plateaus.json beside it names the checks. A dash means that nobody has tried yet."""
 WORDS = 22
 """Of what a line says about a constant."""
 
 
-ABOUT_ADVICE = """Some change advice alone. Of these the table counts checks of the field tests of which advice is right no more, or becomes right (`tests/advice_hits.py`):
-it should warn where a check misses, and nowhere else."""
+ABOUT_ADVICE = """Some change advice alone. It is right of a check of the field tests if it warns where the check misses, and nowhere else. The table counts how many
+advice loses and wins (`tests/advice_hits.py`)."""
 
 
 def known_verdicts() -> dict[str, dict[str, str]]:
@@ -100,7 +99,7 @@ def studied(tried_out: list[Constant]) -> list[str]:
             cells = [swapped(own.get(change, {}).get(ADVICE)) for change in FACTORS]
             lines.append(f"| `{constant.name}` ({Path(constant.file).name}) | `{constant.value}` | {scenes(kept, constant.key, (ADVICE,))[0]} | {' | '.join(cells)} |")
     if rounded:
-        lines += ["", f"Not on a plateau, on the side in brackets: {', '.join(steep) or 'none'}. There the law is wrong, or it is missing."]
+        lines += ["", "These have no plateau on the side in brackets, so a law for them is missing:", "", *(f"- {it}" for it in steep or ["none"])]
     return lines
 
 
@@ -112,8 +111,8 @@ def scenes(kept: dict, key: str, suites: tuple[str, ...] = SUITES) -> list[str]:
 
 
 def is_steep(found: dict[str, list[str]] | None, rounded: dict[str, list[str]] | None) -> bool:
-    """Whether a change loses more than another rounding does."""
-    return found is not None and len(found["lost"]) > len(rounded["lost"] if rounded else [])
+    """Whether a change loses more than another rounding swaps."""
+    return found is not None and len(found["lost"]) > (len(rounded["lost"]) + len(rounded["won"]) if rounded else 0)
 
 
 def swapped(found: dict[str, list[str]] | None) -> str:
