@@ -41,6 +41,13 @@ def test_extent_of_a_body_ignores_drops_ahead() -> None:
     assert body_extent(np.array([]), 0.1, 0.05) == 0.0
 
 
+def test_extent_of_a_body_of_several_rows_ignores_as_many_drops() -> None:
+    rows = np.tile(lattice(1.0, 0.05), 8)
+    with_drops = np.concatenate([rows, np.arange(1.01, 1.6, 0.02)])
+    assert body_extent(with_drops, 0.1, 0.05, 8) == pytest.approx(1.0)
+    assert body_extent(with_drops, 0.1, 0.05) > 1.5
+
+
 def test_extent_takes_in_a_thin_tongue() -> None:
     tongue = np.arange(1.025, 1.6, 0.05)
     assert body_extent(np.concatenate([lattice(1.0, 0.05), tongue]), 0.1, 0.05) == pytest.approx(1.6)

@@ -184,10 +184,11 @@ class GranularColumn(Case):
 
     def _heap(self, simulation: Simulation, setting: Setting) -> Heap:
         cell = self.cell_size(setting)
-        x, y = simulation.world.positions.array()[:, :2].T.astype(np.float64)
-        spacing = cell / PARTICLES_PER_AXIS
-        front = body_extent(x, cell, spacing)
-        height = body_extent(y[x < WALL_STRIP * cell], cell, spacing)
+        positions = simulation.world.positions.array()
+        x, y = positions[:, :2].T.astype(np.float64)
+        spacing, rows = cell / PARTICLES_PER_AXIS, CHANNEL_CELLS * PARTICLES_PER_AXIS if positions.shape[1] == 3 else 1
+        front = body_extent(x, cell, spacing, rows)
+        height = body_extent(y[x < WALL_STRIP * cell], cell, spacing, rows)
         columns = np.floor(x / cell).astype(np.int64)
         tops = np.array([np.max(y[columns == k], initial=0.0) for k in range(int(front / cell) + 1)])
         middles = (np.arange(len(tops)) + 0.5) * cell

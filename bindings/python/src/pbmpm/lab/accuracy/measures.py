@@ -14,15 +14,16 @@ SHIFT_LIMIT = 0.5
 _SHIFT_STEP = 0.005
 
 
-def body_extent(coordinates: np.ndarray, cell_size: float, spacing: float) -> float:
+def body_extent(coordinates: np.ndarray, cell_size: float, spacing: float, rows: int = 1) -> float:
     """How far a body of particles reaches from 0 along one axis [m].
 
     The axis is cut into slices one cell wide. The body goes on up to the first two slices in a row with fewer than
     MIN_PARTICLES particles, so drops that fly ahead do not count and a chance hole does not end it. Its end is the
-    outermost particle of the last slice plus half the lattice spacing.
+    outermost particle of the last slice plus half the lattice spacing. ``rows``: so many stand side by side across the
+    body, each of which has as many particles in a slice.
     """
     slices = np.maximum(np.floor(coordinates / cell_size), 0).astype(np.int64)
-    filled = np.append(np.bincount(slices) >= MIN_PARTICLES, [False, False])
+    filled = np.append(np.bincount(slices) >= rows * MIN_PARTICLES, [False, False])
     last = int(np.argmax(~filled[:-1] & ~filled[1:])) - 1
     inside = coordinates[slices <= last]
     return float(inside.max()) + 0.5 * spacing if len(inside) else 0.0
