@@ -132,6 +132,33 @@ void bound_scatter(const RefGrid *grid, BoundNode *bounds, const RefParticle *p,
     }
 }
 
+/* Whether two nodes of a stencil are neighbours along the axis, of which the first is the middle one. */
+static bool is_middle_beside(const RefStencil *s, int i, int outer, int axis)
+{
+    for (int b = 0; b < 3; b++)
+        if (abs(s->node[i][b] - s->node[outer][b]) != (b == axis)) return false;
+    return fabs(s->offset[i][axis]) <= 0.5 && fabs(s->offset[outer][axis]) > 0.5;
+}
+
+/* What the links of a particle carry along an axis at its nodes: for the outer ones w |x_i - x_p|, for the middle ones what both neighbours have. */
+static double link_size(const RefStencil *s, int i, int axis)
+{
+    double size = 0.0;
+    for (int outer = 0; outer < s->count; outer++)
+        if (is_middle_beside(s, i, outer, axis)) size += s->weight[outer] * fabs(s->offset[outer][axis]);
+    return size > 0.0 ? size : s->weight[i] * fabs(s->offset[i][axis]);
+}
+
+double bound_trace(const RefGrid *grid, const RefParticle *p)
+{
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    double size = 0.0;
+    for (int i = 0; i < s.count; i++)
+        for (int axis = 0; axis < grid->dimension; axis++)
+            size += 4.0 * link_size(&s, i, axis) * fabs(grid->node[reference_index(grid, s.node[i])].u[axis]);
+    return TRANSFER_ROUNDINGS * UNIT_ROUNDOFF * size + FLUSHED;
+}
+
 void bound_push(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, const double S[9], double error)
 {
     const RefStencil s = reference_stencil(grid->dimension, p);
@@ -139,13 +166,11 @@ void bound_push(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, co
     bound_scatter(grid, bounds, p, none, S, (BoundParticle){.D = error});
     if (p->material.kind != K_LIQUID) return;
     for (int i = 0; i < s.count; i++)
-        for (int outer = 0; outer < s.count; outer++) {
-            const bool same_row = s.node[i][1] == s.node[outer][1] && s.node[i][2] == s.node[outer][2];
-            if (!same_row || abs(s.node[i][0] - s.node[outer][0]) != 1 || fabs(s.offset[i][0]) > 0.5) continue;
+        for (int axis = 0; axis < grid->dimension; axis++) {
             BoundNode *node = &bounds[reference_index(grid, s.node[i])];
-            const double size = s.weight[outer] * p->mass * fabs(S[0] * s.offset[outer][0]);
-            node->size[0] += size;
-            node->carried[0] += s.weight[outer] * p->mass * error * fabs(s.offset[outer][0]) + FLUSHED * p->mass * (1.0 + fabs(S[0]));
+            const double more = p->mass * (link_size(&s, i, axis) - s.weight[i] * fabs(s.offset[i][axis]));
+            node->size[axis] += more * fabs(S[0]);
+            node->carried[axis] += more * error + FLUSHED * p->mass * (1.0 + fabs(S[0]));
         }
 }
 

@@ -30,6 +30,8 @@ typedef struct BoundParticle {
 
 /* Error of what reference_gather() returns: sums of w u and 4 w u (x_i - x_p). */
 BoundParticle bound_gather(const RefGrid *grid, const RefParticle *p);
+/* Error of tr D, summed over the links between neighbouring nodes: the middle node of a row takes part in two. */
+double bound_trace(const RefGrid *grid, const RefParticle *p);
 
 /* Error of the rotation of A in the Frobenius norm, given that of A. */
 double bound_rotation(int dimension, const double *A, double error);
@@ -40,8 +42,8 @@ double bound_project(int dimension, const RefParticle *p, const double d[3], con
 /* Adds one particle's part, given the errors of its d and D. `bounds` is indexed like `grid`. */
 void bound_scatter(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, const double d[3], const double D[9],
                    BoundParticle error);
-/* The same for a particle's multiplier, given the error of its entries. In rows of nodes along x the kernel makes what a liquid's pressure adds to the
- * middle node of what it adds to the outer two: so sizes of those count there. */
+/* The same for a particle's multiplier, given the error of its entries. What a liquid's pressure adds to the middle node of a row the kernel makes of what it
+ * adds to the outer two: so sizes of those count there. */
 void bound_push(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, const double S[9], double error);
 /* Of a node's momentum along one axis. The last rounding of each addition counts: there are as many as terms. */
 double bound_of_sum(const BoundNode *node, int axis);

@@ -280,7 +280,7 @@ static void check_step(const RefGrid *nodes, const RefParticle *p, double second
     reference_gather(nodes, p, d, D);
     if (p->material.kind == K_LIQUID) {
         const double trace = matrix_trace(n, D), s = reference_pressure(n, &p->material, p->volume_ratio, second, trace, Y[0]);
-        const double bound = bound_pressure(n, &p->material, p->volume_ratio, second, trace, Y[0], n * error.D) + Y_error;
+        const double bound = bound_pressure(n, &p->material, p->volume_ratio, second, trace, Y[0], bound_trace(nodes, p)) + Y_error;
         check_near(s, S[0], bound, "pressure", index);
         return;
     }
