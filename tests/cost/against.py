@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """What a step costs against another build of the library, at 60 Hz with the convergent solver.
 
-    build/venv/bin/python tests/cost/against.py LIBRARY PACKAGE [SCENE...] [--iterations 5] [--rounds 60] [--scenes FOLDER]
+    build/venv/bin/python tests/cost/against.py LIBRARY PACKAGE [SCENE...] [--iterations 5] [--rounds 60] [--other-isa ISA]
 
 LIBRARY and PACKAGE are the other build's shared library and the folder that holds its `pbmpm` package, for the binding belongs to the library. This
 build is the one that the running interpreter imports, or that PBMPM_LIBRARY names. Compare builds of the same type, as users get them: Release.
+PBMPM_ISA chooses the kernels of both, `--other-isa` those of the other one.
 
 Each build has a process with one thread, and both share one core. After 60 steps of motion they step in turns, one step each, so that what else the machine does
 meets both. Printed per scene: the median CPU time of a step with each, its time per particle, the ratio of the medians, and the median of the
@@ -13,6 +14,7 @@ ratios of neighbouring steps; at the end the median over the scenes. Nothing pas
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import statistics
 import subprocess
@@ -96,19 +98,42 @@ def elastic_3d(pbmpm: Any) -> Any:
     return w
 
 
-def columns(dimension: int, cells: int) -> Callable[[Any], Any]:
-    """A column that is as long as it is high and wide breaks in a tank 2.5 times as long."""
+def shape(pbmpm: Any, part: dict[str, Any]) -> Any:
+    """A box or a ball of a scene file."""
+    if part["kind"] == "sphere":
+        return pbmpm.Sphere(part["position"], part["radius"])
+    return pbmpm.Box(part["position"], part["half_extents"], rotation=part.get("rotation", (0, 0, 0, 1)))
+
+
+@scene
+def workshop_3d(pbmpm: Any) -> Any:
+    """Water, jelly, sand and clay among boxes, from samples/scenes/workshop_3d.json without its wheel, jets and drain."""
+    file = json.loads((Path(__file__).parents[2] / "samples/scenes/workshop_3d.json").read_text(encoding="utf-8"))
+    kinds = {"liquid": pbmpm.Liquid, "elastic": pbmpm.Elastic, "sand": pbmpm.Sand, "visco": pbmpm.Visco}
+    w = world(pbmpm, 3, file["cell_size"], domain=(file["domain"]["min"], file["domain"]["max"]))
+    materials = {name: w.add_material(kinds[part.pop("kind")](**part)) for name, part in file["materials"].items()}
+    for part in file["colliders"]:
+        w.add_collider(shape(pbmpm, part["shape"]))
+    for part in file["fills"]:
+        w.fill(shape(pbmpm, part["shape"]), materials[part["material"]])
+    return w
+
+
+def columns(dimension: int, cells: int, in_cell: int = 0) -> Callable[[Any], Any]:
+    """A column that is as long as it is high and wide breaks in a tank 2.5 times as long; `in_cell`: so many particles per cell, not as many as usual."""
 
     def make(pbmpm: Any) -> Any:
         half = 0.025 * cells / 2
         w = world(pbmpm, dimension, 0.025, domain=((0,) * dimension, (5 * half, 3 * half, 2 * half)[:dimension]))
-        w.fill(pbmpm.Box((half,) * dimension, (half,) * dimension), w.add_material(pbmpm.Liquid()))
+        more = {"particles_per_axis": in_cell ** (1 / dimension)} if in_cell else {}
+        w.fill(pbmpm.Box((half,) * dimension, (half,) * dimension), w.add_material(pbmpm.Liquid()), **more)
         return w
 
     return make
 
 
 SCENES |= {"liquid_3d_200k": columns(3, 29), "liquid_3d_20k": columns(3, 14), "liquid_2d_10k": columns(2, 50)}
+SCENES |= {f"liquid_3d_{count}_a_cell": columns(3, 29, count) for count in (1, 2, 4)}
 
 
 def turns(name: str) -> None:
@@ -151,13 +176,16 @@ def main() -> None:
     parser.add_argument("scenes", nargs="*", choices=[*SCENES, []])
     parser.add_argument("--iterations", type=int, default=5)
     parser.add_argument("--rounds", type=int, default=60, help="steps that are measured")
+    parser.add_argument("--other-isa", choices=["sse4", "avx2", "avx512"], help="kernels of the other build")
     arguments = parser.parse_args()
     here = {**os.environ, "AGAINST_ITERATIONS": str(arguments.iterations), "OPENBLAS_NUM_THREADS": "1"}
     there = {**here, "PBMPM_LIBRARY": str(arguments.library.resolve()), "PYTHONPATH": str(arguments.package.resolve())}
+    if arguments.other_isa:
+        there["PBMPM_ISA"] = arguments.other_isa
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
     ratios = []
-    print(f"{'scene':15} {'particles':>9} {'this [ms]':>10} {'other [ms]':>10} {'this [ns]':>10} {'other [ns]':>10} {'ratio':>7} {'median':>7}")
+    print(f"{'scene':20} {'particles':>9} {'this [ms]':>10} {'other [ms]':>10} {'this [ns]':>10} {'other [ns]':>10} {'ratio':>7} {'median':>7}")
     for name in arguments.scenes or SCENES:
         builds = [Build(name, environment) for environment in (here, there)]
         for _ in range(arguments.rounds):
@@ -168,7 +196,7 @@ def main() -> None:
         this, other = (statistics.median(build.seconds) for build in builds)
         ratios.append(statistics.median(a / b for a, b in zip(builds[0].seconds, builds[1].seconds)))
         each = [1e9 * seconds / build.particles for seconds, build in zip((this, other), builds)]
-        print(f"{name:15} {builds[0].particles:9} {1e3 * this:10.3f} {1e3 * other:10.3f} {each[0]:10.1f} {each[1]:10.1f} {this / other:7.3f} {ratios[-1]:7.3f}", flush=True)
+        print(f"{name:20} {builds[0].particles:9} {1e3 * this:10.3f} {1e3 * other:10.3f} {each[0]:10.1f} {each[1]:10.1f} {this / other:7.3f} {ratios[-1]:7.3f}", flush=True)
     print(f"median of the scenes: {statistics.median(ratios):.3f}")
 
 
