@@ -67,7 +67,7 @@ double dual_carried_share(const World *world)
     return corrected ? 1.0 : CARRIED_SHARE;
 }
 
-/* What particles ask for beside their cells cannot be had in part, see carry_run() in ispc/cells.isph; it grows with each iteration. Kept by the share g, what n
+/* What particles ask for beside their cells cannot be had in part, see carry_liquid_gang() in ispc/cells.isph; it grows with each iteration. Kept by the share g, what n
  * iterations per substep add comes to n / (1 - g) of them. Pools of 12 cells rest best with about 25, at 30, 60 and 240 Hz, 2 to 20 iterations. */
 static float fine_carried(const World *world)
 {
