@@ -1,5 +1,6 @@
 /* What elastic bodies do that a textbook says: they keep their momentum and spin, slide and stick by Coulomb's law, and pay for all that obstacles get.
  * Bodies are small, so that the whole takes seconds. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -147,7 +148,8 @@ static void check_slope(int32_t dimension, const way *chosen, float friction, fl
             const double pulled = now.mass * pull[a] * (double)DT;
             TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-5 * now.mass * (double)(FALL * DT), old.momentum[a] + pulled, now.momentum[a] + given.linear[a], label);
         }
-        TEST_ASSERT_TRUE_MESSAGE(given.linear[1] <= 0.0, label); /* matter pushes the plane */
+        /* Matter pushes the plane; nodes hold momenta as floats, so a body that has just left may seem to pull by a unit in the last place of its weight's impulse. */
+        TEST_ASSERT_TRUE_MESSAGE(given.linear[1] <= (double)FLT_EPSILON * now.mass * (double)(FALL * DT), label);
     }
     TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.02 * pull[0] * second, coulomb, now.momentum[0] / now.mass, label);
     TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.01, 0.0, now.momentum[1] / now.mass, label);

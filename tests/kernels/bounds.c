@@ -159,12 +159,20 @@ double bound_trace(const RefGrid *grid, const RefParticle *p)
     return TRANSFER_ROUNDINGS * UNIT_ROUNDOFF * size + FLUSHED;
 }
 
+static bool is_pressure(int n, const double S[9])
+{
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++)
+            if (S[r * 3 + c] != (r == c ? S[0] : 0.0)) return false;
+    return true;
+}
+
 void bound_push(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, const double S[9], double error)
 {
     const RefStencil s = reference_stencil(grid->dimension, p);
     const double none[3] = {0};
     bound_scatter(grid, bounds, p, none, S, (BoundParticle){.D = error});
-    if (p->material.kind != K_LIQUID) return;
+    if (!is_pressure(grid->dimension, S)) return;
     for (int i = 0; i < s.count; i++)
         for (int axis = 0; axis < grid->dimension; axis++) {
             BoundNode *node = &bounds[reference_index(grid, s.node[i])];

@@ -42,7 +42,7 @@ double bound_project(int dimension, const RefParticle *p, const double d[3], con
 /* Adds one particle's part, given the errors of its d and D. `bounds` is indexed like `grid`. */
 void bound_scatter(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, const double d[3], const double D[9],
                    BoundParticle error);
-/* The same for a particle's multiplier, given the error of its entries. What a liquid's pressure adds to the middle node of a row the kernel makes of what it
+/* The same for a particle's multiplier, given the error of its entries. What a pressure, also one of solids, adds to the middle node of a row the kernel makes of what it
  * adds to the outer two: so sizes of those count there. */
 void bound_push(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, const double S[9], double error);
 /* Of a node's momentum along one axis. The last rounding of each addition counts: there are as many as terms. */
