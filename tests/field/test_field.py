@@ -28,6 +28,9 @@ REASONS = {
     "mixed": "one motion per node: a film of liquid or a cell of air stays between bodies",
 }
 
+BY_CHANCE = {"tall_block[tips]", "pile_slumps[phi_25]", "still_pool[turned_15_boxes]"}
+"""Of starts that differ in the fifth digit some hold and some miss, with any build: rounding decides. `run.py --known` names them only when they miss."""
+
 MISSES: dict[str, list[str]] = json.loads((Path(__file__).parent / "known_misses.json").read_text(encoding="utf-8"))
 QUICK = {variant.name: variant for variant in VARIANTS if variant.name not in SLOW}
 
@@ -51,7 +54,7 @@ def test_what_holds_goes_on_holding(name: str) -> None:
 
 @pytest.mark.parametrize(
     ("name", "what"),
-    [pytest.param(name, what, marks=pytest.mark.xfail(strict=False, reason=REASONS[QUICK[name].room])) for name in QUICK for what in MISSES.get(name, [])],
+    [pytest.param(name, what, marks=pytest.mark.xfail(strict=False, reason="by chance" if name in BY_CHANCE else REASONS[QUICK[name].room])) for name in QUICK for what in MISSES.get(name, [])],
 )
 def test_what_does_not_hold_yet(name: str, what: str) -> None:
     found = next((row for row in rows(name) if row["what"] == what), None)
