@@ -330,7 +330,7 @@ static void trace_of(const DualStage *stage, uint32_t row, const RefParticle *p,
     reference_gather(nodes_now, p, d, D);
     value[0] = 0.0;
     for (int k = 0; k < nodes_now->dimension; k++) value[0] += lightness_of(p) * D[k * 4];
-    value[1] = lightness_of(p) * bound_trace(nodes_now, p);
+    value[1] = lightness_of(p) * nodes_now->dimension * bound_gather(nodes_now, p).D;
 }
 
 /* Sums of h m of a quantity, of the displacements `nodes`. value[1] is its error. */

@@ -78,7 +78,7 @@ static double trace_of(const RefGrid *nodes, const RefParticle *p)
 static double error_of(const RefGrid *nodes, const RefParticle *p, double to)
 {
     const double k = (double)STIFFNESS;
-    return k * bound_trace(nodes, p) + 4.0 * UNIT_ROUNDOFF * (fabs(to) + k * fabs(trace_of(nodes, p)));
+    return k * nodes->dimension * bound_gather(nodes, p).D + 4.0 * UNIT_ROUNDOFF * (fabs(to) + k * fabs(trace_of(nodes, p)));
 }
 
 /* held = p + k tr D; where p = 0, tr D is at most what the liquid lacks of its volume. */
