@@ -152,16 +152,23 @@ def turns(name: str) -> None:
 class Build:
     """One build that steps a scene."""
 
-    def __init__(self, name: str, environment: dict[str, str]) -> None:
-        self.process = subprocess.Popen([sys.executable, __file__, "--turns", name], env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    def __init__(self, scene: str, environment: dict[str, str]) -> None:
+        self.name = environment.get("PBMPM_LIBRARY", "of this interpreter's package")
+        self.process = subprocess.Popen([sys.executable, __file__, "--turns", scene], env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.seconds: list[float] = []
         self.particles = 0
 
     def step(self) -> None:
         assert self.process.stdin and self.process.stdout
-        self.process.stdin.write("\n")
-        self.process.stdin.flush()
-        seconds, particles = self.process.stdout.readline().split()
+        try:
+            self.process.stdin.write("\n")
+            self.process.stdin.flush()
+        except BrokenPipeError:
+            pass  # it has ended: then there is no line to read either
+        line = self.process.stdout.readline()
+        if not line:
+            sys.exit(f"the build {self.name} ended with status {self.process.wait()}; its own message stands above")
+        seconds, particles = line.split()
         self.seconds.append(float(seconds))
         self.particles = int(particles)
 
@@ -173,11 +180,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("library", type=Path)
     parser.add_argument("package", type=Path)
-    parser.add_argument("scenes", nargs="*", choices=[*SCENES, []])
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help=f"of {', '.join(SCENES)}; all, if none is named")
     parser.add_argument("--iterations", type=int, default=5)
     parser.add_argument("--rounds", type=int, default=60, help="steps that are measured")
     parser.add_argument("--other-isa", choices=["sse4", "avx2", "avx512"], help="kernels of the other build")
     arguments = parser.parse_args()
+    if not arguments.library.is_file():
+        parser.error(f"{arguments.library} is no file: name the other build's shared library")
+    if not (arguments.package / "pbmpm" / "__init__.py").is_file():
+        parser.error(f"{arguments.package} has no package pbmpm: name the folder that holds it, such as a site-packages")
+    if unknown := [name for name in arguments.scenes if name not in SCENES]:
+        parser.error(f"there is no scene {unknown[0]}: choose of {', '.join(SCENES)}")
+    if arguments.rounds < 1 or arguments.iterations < 1:
+        parser.error("--rounds and --iterations are at least 1")
     here = {**os.environ, "AGAINST_ITERATIONS": str(arguments.iterations), "OPENBLAS_NUM_THREADS": "1"}
     there = {**here, "PBMPM_LIBRARY": str(arguments.library.resolve()), "PYTHONPATH": str(arguments.package.resolve())}
     if arguments.other_isa:

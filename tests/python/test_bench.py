@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+import pbmpm
 from pbmpm.lab.bench import lake, scenes
 from pbmpm.lab.bench.builds import builds_text, measure_builds
 from pbmpm.lab.commands.bench import bench
@@ -284,3 +285,19 @@ def test_builds_are_measured_in_turns() -> None:
 @pytest.mark.parametrize("options", [["--lake"], ["--pool"]])
 def test_builds_are_not_compared_by_the_lake_or_the_pool(options: list[str]) -> None:
     assert CliRunner().invoke(bench, ["--against", __file__, *options]).exit_code == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["no_library.so", "."], "no_library.so is no file"),
+        ([__file__, "."], "has no package pbmpm"),
+        ([__file__, Path(pbmpm.__file__).parents[1], "no_scene"], "there is no scene no_scene"),
+        ([__file__, Path(pbmpm.__file__).parents[1], "--rounds", "0"], "--rounds and --iterations are at least 1"),
+        ([__file__, Path(pbmpm.__file__).parents[1], "pool", "--rounds", "1"], f"the build {__file__} ended with status 1"),
+    ],
+)
+def test_a_build_that_cannot_be_measured_is_named(arguments: list[str | Path], said: str, root: Path) -> None:
+    """This file is no library."""
+    done = subprocess.run([sys.executable, root / "tests/cost/against.py", *arguments], capture_output=True, text=True)
+    assert done.returncode != 0 and said in done.stderr and "BrokenPipe" not in done.stderr
